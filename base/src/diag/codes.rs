@@ -1,0 +1,191 @@
+//! Every diagnostic and fault code, once. A code is for ever: never reused, never renumbered.
+//!
+//! P0 text, P1 names, P2 types, P3 program rules, P4 tasks and configuration; N g-code; C project and image files; F runtime faults, whose number is
+//! the ErrorID word of a function block in hexadecimal. Each has a page in `docs/codes/`, which `takt explain` prints.
+
+use super::Severity;
+
+macro_rules! codes {
+    ($($(#[$meta:meta])* $text:ident $name:ident $title:literal $($severity:ident)?;)*) => {
+        /// A rule or fault with a name, a number and a page.
+        #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, PartialOrd, Ord)]
+        pub enum Code { $($(#[$meta])* #[doc = $title] $name,)* }
+
+        impl Code {
+            /// All codes.
+            pub const ALL: &'static [Code] = &[$(Code::$name,)*];
+            /// The number, such as `P2007`.
+            pub const fn text(self) -> &'static str {
+                match self { $(Code::$name => stringify!($text),)* }
+            }
+            /// One line that says the rule.
+            pub const fn title(self) -> &'static str {
+                match self { $(Code::$name => $title,)* }
+            }
+            /// What it is unless the reporter says otherwise.
+            pub const fn severity(self) -> Severity {
+                match self { $(Code::$name => codes!(@severity $($severity)?),)* }
+            }
+            /// The page in `docs/codes/`, in Markdown.
+            pub const fn page(self) -> &'static str {
+                match self {
+                    $(Code::$name => include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/codes/", stringify!($text), ".md")),)*
+                }
+            }
+        }
+    };
+    (@severity) => { Severity::Error };
+    (@severity $severity:ident) => { Severity::$severity };
+}
+
+codes! {
+    // --- P0 text ---
+    P0001 UnexpectedCharacter "this character can't start anything here";
+    P0002 UnterminatedComment "a comment is not closed";
+    P0003 UnterminatedString "a string is not closed on its line";
+    P0004 BadEscape "this `$` escape does not exist";
+    P0005 BadNumber "this number is not written as the standard asks";
+    P0006 BadTypedLiteral "this literal does not fit its type prefix";
+    P0007 BadTime "this duration or date is not well formed";
+    P0008 BadAddress "this direct address is not well formed";
+    P0009 BadIdentifier "an identifier may not have two underscores in a row or one at its end";
+    P0010 Expected "the parser needs something else here";
+    P0011 NestedTooDeep "nesting is too deep";
+    P0012 NotSupportedYet "this part of the language is not supported by this version";
+
+    // --- P1 names ---
+    P1001 DuplicateName "this name is declared twice in one scope";
+    P1002 KeywordAsName "a keyword can't be a name";
+    P1003 UnknownName "name is not declared in this scope";
+    P1004 UnknownType "no type, function block or class has this name";
+    P1005 UnknownMember "this type has no such member";
+    P1006 UnknownParameter "the called unit has no such parameter";
+    P1007 AmbiguousEnumerator "several enumerations have a value of this name";
+    P1008 GlobalWithoutExternal "a global is used without a VAR_EXTERNAL declaration" Warning;
+    P1009 ExternalMismatch "VAR_EXTERNAL does not match a global variable";
+
+    // --- P2 types ---
+    P2001 TypeMismatch "the types do not fit";
+    P2002 NoCommonType "the operands have no common type";
+    P2003 BadOperand "the operator is not defined for this type";
+    P2004 OutOfRange "this constant does not fit the type";
+    P2005 NotConstant "a constant is needed here";
+    P2006 NotBool "a condition must be BOOL";
+    P2007 Narrowing "a narrower type needs an explicit conversion";
+    P2008 NotAnArray "only an array can be indexed";
+    P2009 IndexOutOfRange "this index is outside of the array";
+    P2010 BadInitializer "this initial value does not fit the type";
+    P2011 DivisionByZeroConstant "division by the constant zero";
+    P2012 NotCallable "this can't be called";
+    P2013 WrongArgumentCount "the number of arguments does not fit";
+    P2014 NotAVariable "a variable is needed here";
+    P2015 RecursiveType "a type can't contain itself";
+    P2016 TypeTooLarge "this type or program needs more memory than there is";
+
+    // --- P3 program rules ---
+    P3001 AssignToConstant "a constant can't be assigned";
+    P3002 AssignToInput "an input can't be assigned inside its own unit";
+    P3003 ExitOutsideLoop "EXIT and CONTINUE belong in a loop";
+    P3004 DuplicateCaseLabel "two CASE labels cover the same value";
+    P3005 ForVariable "the FOR control variable is not usable here";
+    P3006 ForStepZero "a FOR step of zero never ends";
+    P3007 MissingInOut "a VAR_IN_OUT must be given at every call";
+    P3008 SectionNotAllowed "this variable section is not allowed here";
+    P3009 Recursion "this unit calls itself" Warning;
+    P3010 AssignToOutput "an output of a function block can't be assigned from outside";
+    P3011 AddressMismatch "the type does not fit the direct address";
+    P3012 ResultNeverAssigned "the function never assigns its result" Warning;
+    P3013 WriteToInputImage "the input image can't be written";
+    P3014 RetainNotKept "retained values are not kept over a restart by this version" Warning;
+
+    // --- P4 tasks and configuration ---
+    P4001 UnknownTask "no task has this name";
+    P4002 NoProgram "nothing to run: the project has no PROGRAM";
+    P4003 BadTask "this task can't be scheduled";
+
+    // --- N g-code ---
+    N0001 BadCharacter "this character is not part of a g-code block";
+    N0002 BadWord "this word is not well formed";
+    N0003 UnknownCode "this G or M code is not supported";
+    N0004 ModalConflict "two codes of one modal group in one block";
+    N0005 DuplicateWord "the same word stands twice in a block";
+    N0006 MissingWord "the block lacks a word that its code needs";
+    N0007 RadiusMismatch "start and end of the arc are not on one circle";
+    N0008 NoFeed "a feed move without a feed rate";
+    N0009 UnusedWord "no code in the block uses this word";
+    N0010 BadValue "this value is not allowed for the word";
+    N0011 CommentNotClosed "a comment is not closed";
+    N0012 OutsideLimits "the move leaves the travel of an axis";
+    N0013 NotOnGrid "the position is not a whole number of basic length units";
+
+    // --- C project and image files ---
+    C0001 BadProjectFile "the project file can't be used";
+    C0002 UnknownKey "the project file has no such key";
+    C0003 BadImage "this is not an image that this version can run";
+    C0004 MissingNative "the image needs a function that this controller does not have";
+    C0005 FileError "a file can't be read or written";
+    C0006 BadStimulus "the stimulus file is not well formed";
+    C0007 UnknownPath "no variable has this path";
+    C0008 BadValueText "this text is not a value of the variable's type";
+
+    // --- F runtime faults and ErrorID numbers ---
+    F0001 ParameterOutOfRange "a parameter is out of range";
+    F0002 UnknownReference "the axis or channel reference is not one of this controller";
+    F0003 LimitExceeded "the target is outside of the software limits";
+    F0100 NotPowered "the axis is not powered";
+    F0101 WrongState "the command is not allowed in this state";
+    F0102 NotHomed "the axis is not homed";
+    F0103 AxisGrouped "the axis belongs to a running channel";
+    F0200 FollowingError "the following error is too large";
+    F0201 DriveFault "the drive reports a fault";
+    F0400 QueueFull "too many commands are waiting";
+    F0600 ProgramNotLoaded "no part program is loaded";
+    F0601 ProgramError "the part program has an error";
+    F0602 ProgramFile "the part program file can't be read";
+    F0603 AuxTimeout "an auxiliary function was not finished in time";
+    F0604 AuxFault "the PLC program reported a fault of an auxiliary function";
+    F0605 ChannelState "the command is not allowed in this state of the channel";
+    F0701 DivisionByZero "integer division by zero";
+    F0702 IndexFault "array index out of bounds";
+    F0703 RangeFault "value outside of the subrange";
+    F0704 StackOverflow "the calls are nested too deep";
+    F0705 Watchdog "the task did not end in time";
+    F0706 BadReference "a reference does not point to anything";
+    F0707 StringIndexFault "string position out of bounds";
+    F0708 NativePanic "a library function failed inside";
+    F0709 MemoryFault "the program touched memory that is not its own";
+    F0710 ForStepFault "a FOR step of zero";
+}
+
+impl Code {
+    /// The code with this number, if there is one. Case does not matter.
+    pub fn from_text(text: &str) -> Option<Code> {
+        Code::ALL.iter().copied().find(|c| c.text().eq_ignore_ascii_case(text))
+    }
+    /// The number of an F code as an ErrorID word (`F0701` is 16#0701); 0 for all others.
+    pub fn error_id(self) -> u16 {
+        self.text().strip_prefix('F').and_then(|n| u16::from_str_radix(n, 16).ok()).unwrap_or(0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::HashSet;
+
+    #[test]
+    fn numbers_are_unique_and_pages_name_their_code() {
+        let numbers: HashSet<_> = Code::ALL.iter().map(|c| c.text()).collect();
+        assert_eq!(numbers.len(), Code::ALL.len());
+        for code in Code::ALL {
+            assert!(code.page().starts_with(&format!("# {}: ", code.text())), "docs/codes/{}.md has no heading", code.text());
+        }
+    }
+
+    #[test]
+    fn faults_are_error_ids() {
+        assert_eq!(Code::DivisionByZero.error_id(), 0x0701);
+        assert_eq!(Code::Narrowing.error_id(), 0);
+        assert_eq!(Code::from_text("f0701"), Some(Code::DivisionByZero));
+    }
+}

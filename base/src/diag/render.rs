@@ -1,0 +1,60 @@
+//! Text form of a message, as in the example of `docs/guide/diagnostics.md`.
+
+use super::{Diag, Severity};
+use crate::source::{Sources, Span};
+use std::fmt::Write;
+
+/// Renders one message over several lines, ending with a line end.
+pub fn render(diag: &Diag, sources: &Sources) -> String {
+    let mut out = String::new();
+    let kind = match diag.severity {
+        Severity::Error => "error",
+        Severity::Warning => "warning",
+    };
+    let _ = writeln!(out, "{kind}[{}]: {}", diag.code.text(), diag.message);
+    let source = sources.get(diag.span.source);
+    let at = source.line_col(diag.span.start);
+    let margin = at.line.to_string().len();
+    let _ = writeln!(out, "{:margin$}--> {}", "", place(sources, diag.span));
+    let line = source.line(at.line).replace('\t', " ");
+    let _ = writeln!(out, "{} | {line}", at.line);
+    let before = at.column as usize - 1;
+    let width = underlined(sources, diag.span, line.chars().count().saturating_sub(before));
+    let carets = format!("{:margin$} | {:before$}{} {}", "", "", "^".repeat(width), diag.label);
+    let _ = writeln!(out, "{}", carets.trim_end());
+    for (span, note) in &diag.related {
+        let _ = writeln!(out, "{:margin$} = note: {note}, at {}", "", place(sources, *span));
+    }
+    if let Some(help) = &diag.help {
+        let _ = writeln!(out, "{:margin$} = help: {help}", "");
+    }
+    out
+}
+
+fn place(sources: &Sources, span: Span) -> String {
+    let source = sources.get(span.source);
+    let at = source.line_col(span.start);
+    format!("{}:{}:{}", source.name, at.line, at.column)
+}
+
+/// Number of carets: the span, but not past the end of its first line, and at least one.
+fn underlined(sources: &Sources, span: Span, room: usize) -> usize {
+    sources.text(span).lines().next().unwrap_or("").chars().count().min(room).max(1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::diag::Code;
+
+    #[test]
+    fn shows_place_label_note_and_help() {
+        let mut sources = Sources::new();
+        let id = sources.add("pump.st", "x\n  level := raw;\n");
+        let diag = Diag::new(Code::Narrowing, Span::new(id, 13, 16), "DINT, 32 bits")
+            .also(Span::new(id, 4, 9), "`level` is INT, 16 bits")
+            .help("write DINT_TO_INT(raw) to accept the truncation");
+        let want = "error[P2007]: a narrower type needs an explicit conversion\n --> pump.st:2:12\n2 |   level := raw;\n  |            ^^^ DINT, 32 bits\n  = note: `level` is INT, 16 bits, at pump.st:2:3\n  = help: write DINT_TO_INT(raw) to accept the truncation\n";
+        assert_eq!(render(&diag, &sources), want);
+    }
+}
