@@ -1,1 +1,4 @@
-//! See ARCHITECTURE.md.
+//! Motion: part program -> interpreter -> canonical commands -> look-ahead -> interpolation -> position control -> drive.
+//! Everything before the ring runs in the background, everything behind it is cyclic. See ARCHITECTURE.md.
+
+pub mod canon;
