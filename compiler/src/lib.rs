@@ -1,1 +1,5 @@
-//! See ARCHITECTURE.md.
+//! From source text to an image.
+
+pub mod hir;
+pub mod mir;
+pub mod syntax;

@@ -1,1 +1,3 @@
-//! See ARCHITECTURE.md.
+//! The IEC 61131-3 standard library.
+
+pub mod catalog;

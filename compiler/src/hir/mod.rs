@@ -1,0 +1,3 @@
+//! The typed program. See [`model`].
+
+pub mod model;

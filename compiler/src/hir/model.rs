@@ -1,0 +1,370 @@
+//! The typed program: names have become ids, every expression has a type, every implicit conversion is written out, calls have all
+//! their arguments in order. ST, IL and the graphical languages meet here.
+
+use crate::syntax::ast::{BinaryOp, Edge};
+use takt_base::index::IndexVec;
+use takt_base::{Nanos, SourceId, Span};
+use takt_image::image::Place as ImagePlace;
+use takt_image::{Elementary, TypeId, TypeTable};
+use takt_stdlib::catalog::Intrinsic;
+
+takt_base::index_type! {
+    /// A FUNCTION, FUNCTION_BLOCK or PROGRAM in [`Hir::pous`].
+    PouId
+}
+takt_base::index_type! {
+    /// A variable of a unit, in [`Pou::vars`].
+    VarId
+}
+takt_base::index_type! {
+    /// A global variable in [`Hir::globals`].
+    GlobalId
+}
+
+/// A whole program.
+#[derive(Debug, Default)]
+pub struct Hir {
+    /// All types; goes into the image as it is.
+    pub types: TypeTable,
+    /// Units that a task reaches, directly or through calls, come before lowering; others are checked but not lowered.
+    pub pous: IndexVec<PouId, Pou>,
+    /// VAR_GLOBAL variables.
+    pub globals: IndexVec<GlobalId, Global>,
+    /// Tasks with their program instances.
+    pub tasks: Vec<Task>,
+    /// Bytes used in %I, %Q, %M: one past the highest address.
+    pub image_bytes: [u32; 3],
+}
+
+/// A unit.
+#[derive(Debug)]
+pub struct Pou {
+    /// Name as declared.
+    pub name: String,
+    /// Which.
+    pub kind: PouKind,
+    /// File of the declaration.
+    pub source: SourceId,
+    /// For function blocks and programs: the [`takt_image::Type::Instance`] whose fields are `vars` with storage `Field`.
+    pub instance: Option<TypeId>,
+    /// All variables, in declaration order.
+    pub vars: IndexVec<VarId, Var>,
+    /// Variables that make up the signature, in declaration order: inputs, in-outs and outputs.
+    pub params: Vec<VarId>,
+    /// Result variable of a function.
+    pub result: Option<VarId>,
+    /// The body is the native of this name.
+    pub external: bool,
+    /// Statements.
+    pub body: Vec<Stmt>,
+    /// The END_ keyword: place of what happens at the end.
+    pub end: Span,
+    /// Reached from a task.
+    pub reachable: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum PouKind {
+    Function,
+    FunctionBlock,
+    Program,
+}
+
+/// A variable of a unit.
+#[derive(Debug)]
+pub struct Var {
+    /// Name as declared.
+    pub name: String,
+    /// Type; for VAR_IN_OUT the type of what it refers to.
+    pub ty: TypeId,
+    /// VAR_INPUT, ...
+    pub role: Role,
+    /// Where it lives.
+    pub storage: Storage,
+    /// Value at the start of a call (functions, VAR_TEMP) or in a new instance; always complete.
+    pub init: Const,
+    /// R_EDGE or F_EDGE, with the hidden BOOL field that holds the previous value of the actual input.
+    pub edge: Option<(Edge, VarId)>,
+    /// Declaration.
+    pub span: Span,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum Role {
+    Input,
+    Output,
+    InOut,
+    Local,
+    Temp,
+    /// Result of a function.
+    Result,
+    /// Made by the compiler.
+    Hidden,
+}
+
+/// Where a variable lives.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Storage {
+    /// Field of the instance, by index into the record's fields. A VAR_IN_OUT field holds an offset.
+    Field(u32),
+    /// On the frame or in a register, one per call. A VAR_IN_OUT local holds an offset.
+    Local,
+    /// Located: in the process image.
+    Image(ImagePlace),
+}
+
+/// A global variable.
+#[derive(Debug)]
+pub struct Global {
+    /// Name as declared.
+    pub name: String,
+    /// Type.
+    pub ty: TypeId,
+    /// Located, or given a place in the data area by the lowering.
+    pub place: Option<ImagePlace>,
+    /// Initial value.
+    pub init: Const,
+    /// CONSTANT.
+    pub constant: bool,
+    /// RETAIN.
+    pub retain: bool,
+    /// Declaration.
+    pub span: Span,
+}
+
+/// A task of the resource.
+#[derive(Debug)]
+pub struct Task {
+    /// Name.
+    pub name: String,
+    /// 0 is the highest.
+    pub priority: u32,
+    /// Period.
+    pub interval: Option<Nanos>,
+    /// SINGLE: a global BOOL or a bit of the process image.
+    pub single: Option<Place>,
+    /// Instances in declaration order.
+    pub programs: Vec<ProgramInstance>,
+}
+
+/// A program instance.
+#[derive(Debug)]
+pub struct ProgramInstance {
+    /// Instance name.
+    pub name: String,
+    /// Its type.
+    pub pou: PouId,
+    /// Copied before each run: input (or output) variable of the program, value.
+    pub inputs: Vec<(VarId, Expr)>,
+    /// Copied after each run.
+    pub outputs: Vec<(VarId, Place)>,
+}
+
+/// A constant of any type. Complete: every element and member is there.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Const {
+    /// Everything that is stored as an integer, BOOL, times and enumerators included.
+    Int(i128),
+    /// REAL (already rounded to f32) and LREAL.
+    Real(f64),
+    /// Not longer than the type's capacity.
+    String(Vec<u8>),
+    /// Not longer than the type's capacity.
+    WString(Vec<u16>),
+    /// Elements of an array in memory order, or fields of a record in order.
+    Aggregate(Vec<Const>),
+    /// All bytes zero, whatever the type: cheap form of a large default.
+    Zero,
+}
+
+/// A statement.
+#[derive(Debug)]
+pub struct Stmt {
+    /// What it does.
+    pub kind: StmtKind,
+    /// Where: faults and traces point here.
+    pub span: Span,
+}
+
+#[derive(Debug)]
+#[allow(missing_docs)]
+pub enum StmtKind {
+    /// The value has the target's type; strings may have another capacity and are cut.
+    Assign {
+        target: Place,
+        value: Expr,
+    },
+    /// Run a function block: `inputs` are assigned in order, then the body runs, then `outputs` are copied.
+    CallBlock {
+        instance: Place,
+        pou: PouId,
+        inputs: Vec<(VarId, Arg)>,
+        outputs: Vec<Output>,
+    },
+    /// A function as a statement; its result, if any, is dropped.
+    Call(Expr),
+    If {
+        branches: Vec<(Expr, Vec<Stmt>)>,
+        otherwise: Vec<Stmt>,
+    },
+    /// Labels are inclusive ranges of the selector's integer value and don't overlap.
+    Case {
+        selector: Expr,
+        arms: Vec<(Vec<(i128, i128)>, Vec<Stmt>)>,
+        otherwise: Vec<Stmt>,
+    },
+    /// All of the variable's type. A step of zero traps (ForStep) when it is not constant. Trip count as in language reference §5.6.
+    For {
+        variable: Place,
+        from: Expr,
+        to: Expr,
+        by: Expr,
+        body: Vec<Stmt>,
+    },
+    While {
+        condition: Expr,
+        body: Vec<Stmt>,
+    },
+    Repeat {
+        body: Vec<Stmt>,
+        until: Expr,
+    },
+    Exit,
+    Continue,
+    Return,
+}
+
+/// An output that a call hands back.
+#[derive(Debug)]
+#[allow(missing_docs)]
+pub struct Output {
+    pub var: VarId,
+    pub target: Place,
+    pub negated: bool,
+    /// Conversion on the way, if the target is wider.
+    pub convert: Option<(TypeId, TypeId)>,
+}
+
+/// An expression with its type.
+#[derive(Clone, Debug)]
+pub struct Expr {
+    /// What it is.
+    pub kind: ExprKind,
+    /// Type of the value.
+    pub ty: TypeId,
+    /// Where.
+    pub span: Span,
+}
+
+#[derive(Clone, Debug)]
+#[allow(missing_docs)]
+pub enum ExprKind {
+    Const(Const),
+    Load(Place),
+    Neg(Box<Expr>),
+    Not(Box<Expr>),
+    /// Operands have one type (`shift` amounts and TIME * number excepted, which are intrinsics or conversions). Comparisons give
+    /// BOOL. Strings compare by code unit. Short-circuit is decided here: `And`/`Or` of BOOL evaluate both sides,
+    /// `AndThen`/`OrElse` skip; the checker turns `And`/`Or` of BOOL into those when the right side is pure and may trap.
+    Binary(BinaryOp, Box<Expr>, Box<Expr>),
+    /// Value conversion to `ty`: `how` says which.
+    Convert(Conversion, Box<Expr>),
+    /// A user function with all its parameters in order of [`Pou::params`].
+    Call {
+        pou: PouId,
+        args: Vec<Arg>,
+    },
+    Intrinsic(Intrinsic, Vec<Expr>),
+    /// A library native by its full name; argument order as in the catalogue, scalars already converted. A string result has type
+    /// `ty`, a STRING large enough.
+    Native {
+        name: String,
+        args: Vec<Expr>,
+    },
+}
+
+/// Conversions between scalar types; source and target storage are in the types.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Conversion {
+    /// Integer, bit string, enumeration, time (as its number): sign- or zero-extend by the source type, or keep the low bits.
+    Integer,
+    /// Like `Integer`, but a signed source is zero-extended (profile std: INT_TO_DWORD).
+    ZeroExtend,
+    /// Value <> 0 to BOOL.
+    NonZero,
+    /// Bit 0 to BOOL.
+    LowBit,
+    /// Integer to real, nearest even.
+    IntToReal,
+    /// Real to integer, nearest even, saturating, NaN to 0.
+    RealToInt,
+    /// REAL to LREAL or back.
+    Real,
+    /// DWORD to REAL and the like: same bits.
+    Bits,
+    /// To a subrange or back; to a subrange it traps (Range) when outside.
+    Subrange,
+    /// STRING to STRING of another capacity, CHAR to STRING.
+    String,
+}
+
+/// An argument of a user function or a block input.
+#[derive(Clone, Debug)]
+#[allow(missing_docs)]
+pub enum Arg {
+    /// VAR_INPUT by value.
+    Value(Expr),
+    /// VAR_IN_OUT.
+    Reference(Place),
+    /// VAR_OUTPUT of a function: where it goes, complemented or not.
+    Output { target: Place, negated: bool },
+    /// VAR_OUTPUT of a function that nobody wants.
+    Unused,
+}
+
+/// Something that can be read or written.
+#[derive(Clone, Debug)]
+pub struct Place {
+    /// Where it begins.
+    pub base: Base,
+    /// Steps from there.
+    pub path: Vec<Step>,
+    /// Type of what is found there.
+    pub ty: TypeId,
+    /// Where it is written.
+    pub span: Span,
+}
+
+/// Start of a place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum Base {
+    /// Variable of the running unit; a VAR_IN_OUT means what it refers to.
+    Var(VarId),
+    Global(GlobalId),
+    /// Direct address.
+    Image(ImagePlace),
+}
+
+/// A step along a place.
+#[derive(Clone, Debug)]
+#[allow(missing_docs)]
+pub enum Step {
+    /// Field of a structure or instance, by index.
+    Field(u32),
+    /// Element of an array: one expression per dimension, DINT or LINT; out of bounds traps (Index).
+    Index(Vec<Expr>),
+    /// Bits `bit .. bit + width` of an integer-like value: w.3, d.%B1. Last step only.
+    Part { bit: u32, width: u32 },
+    /// Character of a string, from 1; traps (StringIndex) outside of the current length.
+    Character(Box<Expr>),
+}
+
+impl Hir {
+    /// Storage type of a scalar.
+    pub fn elementary(&self, ty: TypeId) -> Option<Elementary> {
+        self.types.storage(ty)
+    }
+}

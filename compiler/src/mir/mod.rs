@@ -1,0 +1,3 @@
+//! The machine-level form of a program. See [`model`].
+
+pub mod model;

@@ -1,0 +1,502 @@
+//! The tree of a source file, as written: names are text, nothing has a type yet. Every node knows its span.
+//! From: IEC 61131-3 edition 3, §6 and §7.3. Shared by all textual languages.
+
+use takt_base::Span;
+
+/// An identifier as written; compare with [`Name::is`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct Name {
+    /// As written.
+    pub text: String,
+    /// Where.
+    pub span: Span,
+}
+
+impl Name {
+    /// Same name, without regard to case (§6.1.2).
+    pub fn is(&self, other: &str) -> bool {
+        self.text.eq_ignore_ascii_case(other)
+    }
+    /// The form that names are looked up by.
+    pub fn key(&self) -> String {
+        self.text.to_ascii_uppercase()
+    }
+}
+
+/// One source file.
+#[derive(Clone, Debug, Default)]
+pub struct File {
+    /// Declarations in order.
+    pub items: Vec<Item>,
+}
+
+/// A declaration of a file.
+#[derive(Clone, Debug)]
+#[allow(missing_docs)]
+pub enum Item {
+    Types(Vec<TypeDecl>),
+    Pou(Pou),
+    /// VAR_GLOBAL outside of a configuration (vendor form, and the form of generated declarations).
+    Globals(VarSection),
+    Configuration(Configuration),
+}
+
+/// FUNCTION, FUNCTION_BLOCK or PROGRAM.
+#[derive(Clone, Debug)]
+pub struct Pou {
+    /// Which.
+    pub kind: PouKind,
+    /// Its name.
+    pub name: Name,
+    /// Result type of a function; `None` for a procedure, and for the other kinds.
+    pub result: Option<TypeRef>,
+    /// Variable sections in order.
+    pub sections: Vec<VarSection>,
+    /// Statements.
+    pub body: Vec<Stmt>,
+    /// `{external}` stands before it: the body is a native.
+    pub external: bool,
+    /// From the first to the last keyword.
+    pub span: Span,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum PouKind {
+    Function,
+    FunctionBlock,
+    Program,
+}
+
+/// VAR ... END_VAR.
+#[derive(Clone, Debug)]
+pub struct VarSection {
+    /// VAR, VAR_INPUT, ...
+    pub kind: SectionKind,
+    /// CONSTANT.
+    pub constant: bool,
+    /// RETAIN (true), NON_RETAIN (false) or neither.
+    pub retain: Option<bool>,
+    /// Declarations in order.
+    pub decls: Vec<VarDecl>,
+    /// The opening keyword and its qualifiers.
+    pub span: Span,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum SectionKind {
+    Var,
+    Temp,
+    Input,
+    Output,
+    InOut,
+    External,
+    Global,
+}
+
+/// `a, b AT %QX0.0 : BOOL := TRUE;`
+#[derive(Clone, Debug)]
+pub struct VarDecl {
+    /// Names; empty for an anonymous located variable.
+    pub names: Vec<Name>,
+    /// AT.
+    pub at: Option<Address>,
+    /// Type.
+    pub ty: TypeRef,
+    /// R_EDGE or F_EDGE.
+    pub edge: Option<Edge>,
+    /// Initial value.
+    pub init: Option<Init>,
+    /// All of it.
+    pub span: Span,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum Edge {
+    Rising,
+    Falling,
+}
+
+/// `%QX0.1`: a direct address.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Address {
+    /// I, Q or M.
+    pub area: Area,
+    /// X (also when left out), B, W, D, L.
+    pub size: AddressSize,
+    /// Numbers between the dots; empty for `%I*`.
+    pub path: Vec<u32>,
+    /// Where.
+    pub span: Span,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum Area {
+    Input,
+    Output,
+    Marker,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum AddressSize {
+    Bit,
+    Byte,
+    Word,
+    Dword,
+    Lword,
+}
+
+/// `Name : body := init;` in TYPE ... END_TYPE.
+#[derive(Clone, Debug)]
+pub struct TypeDecl {
+    /// New name.
+    pub name: Name,
+    /// What it stands for.
+    pub body: TypeBody,
+    /// Default initial value.
+    pub init: Option<Init>,
+}
+
+/// Right side of a type declaration.
+#[derive(Clone, Debug)]
+#[allow(missing_docs)]
+pub enum TypeBody {
+    /// Alias, array, string, subrange.
+    Ref(TypeRef),
+    /// `(A, B := 5)`, `DWORD (A := 1)`, `(A, B) USINT`.
+    Enum(EnumDecl),
+    Struct(Vec<VarDecl>),
+}
+
+/// Values of an enumeration.
+#[derive(Clone, Debug)]
+pub struct EnumDecl {
+    /// Base type, if named.
+    pub base: Option<Name>,
+    /// Names with their explicit values.
+    pub values: Vec<(Name, Option<Expr>)>,
+    /// All of it.
+    pub span: Span,
+}
+
+/// A type where it is used.
+#[derive(Clone, Debug)]
+pub struct TypeRef {
+    /// What is written.
+    pub kind: TypeRefKind,
+    /// Where.
+    pub span: Span,
+}
+
+#[derive(Clone, Debug)]
+#[allow(missing_docs)]
+pub enum TypeRefKind {
+    /// Elementary, derived or POU name.
+    Named(Name),
+    /// `STRING`, `STRING[80]`, `STRING(80)`; `wide`: WSTRING.
+    String {
+        wide: bool,
+        capacity: Option<Box<Expr>>,
+    },
+    /// `INT (0..9)`.
+    Subrange {
+        base: Name,
+        low: Box<Expr>,
+        high: Box<Expr>,
+    },
+    Array {
+        dims: Vec<(Expr, Expr)>,
+        element: Box<TypeRef>,
+    },
+    /// Anonymous enumeration.
+    Enum(EnumDecl),
+    /// Anonymous structure (vendor).
+    Struct(Vec<VarDecl>),
+    /// Something was wrong here and has been reported.
+    Error,
+}
+
+/// An initial value.
+#[derive(Clone, Debug)]
+#[allow(missing_docs)]
+pub enum Init {
+    Expr(Expr),
+    /// `[1, 2(0), (a := 1)]`
+    Array(Vec<ArrayInit>, Span),
+    /// `(a := 1, b := [1, 2])`
+    Struct(Vec<(Name, Init)>, Span),
+}
+
+/// An element of an array initial value.
+#[derive(Clone, Debug)]
+#[allow(missing_docs)]
+pub enum ArrayInit {
+    One(Init),
+    /// `3(0, 1)`; an empty list means default elements.
+    Repeat(Expr, Vec<Init>),
+}
+
+impl Init {
+    /// Where it stands.
+    pub fn span(&self) -> Span {
+        match self {
+            Init::Expr(e) => e.span,
+            Init::Array(_, s) | Init::Struct(_, s) => *s,
+        }
+    }
+}
+
+/// CONFIGURATION ... END_CONFIGURATION.
+#[derive(Clone, Debug)]
+pub struct Configuration {
+    /// Its name.
+    pub name: Name,
+    /// Configuration globals.
+    pub globals: Vec<VarSection>,
+    /// Resources; one without a name if tasks and programs stand directly in the configuration.
+    pub resources: Vec<Resource>,
+}
+
+/// RESOURCE name ON type.
+#[derive(Clone, Debug)]
+#[allow(missing_docs)]
+pub struct Resource {
+    pub name: Option<Name>,
+    pub globals: Vec<VarSection>,
+    pub tasks: Vec<TaskDecl>,
+    pub programs: Vec<ProgramDecl>,
+}
+
+/// `TASK name (SINGLE := s, INTERVAL := T#10ms, PRIORITY := 1);`
+#[derive(Clone, Debug)]
+#[allow(missing_docs)]
+pub struct TaskDecl {
+    pub name: Name,
+    pub single: Option<Expr>,
+    pub interval: Option<Expr>,
+    pub priority: Option<Expr>,
+}
+
+/// `PROGRAM name WITH task : Type (in := global, out => global);`
+#[derive(Clone, Debug)]
+#[allow(missing_docs)]
+pub struct ProgramDecl {
+    pub name: Name,
+    pub retain: Option<bool>,
+    pub task: Option<Name>,
+    pub ty: Name,
+    pub connections: Vec<Arg>,
+}
+
+/// A statement.
+#[derive(Clone, Debug)]
+pub struct Stmt {
+    /// What it does.
+    pub kind: StmtKind,
+    /// Where.
+    pub span: Span,
+}
+
+#[derive(Clone, Debug)]
+#[allow(missing_docs)]
+pub enum StmtKind {
+    Assign {
+        target: Expr,
+        value: Expr,
+    },
+    /// A call as a statement: the expression is always [`ExprKind::Call`].
+    Call(Expr),
+    /// IF and its ELSIFs, then ELSE.
+    If {
+        branches: Vec<(Expr, Vec<Stmt>)>,
+        otherwise: Vec<Stmt>,
+    },
+    Case {
+        selector: Expr,
+        arms: Vec<CaseArm>,
+        otherwise: Option<Vec<Stmt>>,
+    },
+    For {
+        variable: Expr,
+        from: Expr,
+        to: Expr,
+        by: Option<Expr>,
+        body: Vec<Stmt>,
+    },
+    While {
+        condition: Expr,
+        body: Vec<Stmt>,
+    },
+    Repeat {
+        body: Vec<Stmt>,
+        until: Expr,
+    },
+    Exit,
+    Continue,
+    Return,
+    /// A lone `;`.
+    Empty,
+    /// Something was wrong here and has been reported.
+    Error,
+}
+
+/// Labels and statements of a CASE branch.
+#[derive(Clone, Debug)]
+#[allow(missing_docs)]
+pub struct CaseArm {
+    pub labels: Vec<CaseLabel>,
+    pub body: Vec<Stmt>,
+}
+
+/// `low` or `low..high`.
+#[derive(Clone, Debug)]
+#[allow(missing_docs)]
+pub struct CaseLabel {
+    pub low: Expr,
+    pub high: Option<Expr>,
+}
+
+/// An expression.
+#[derive(Clone, Debug)]
+pub struct Expr {
+    /// What it is.
+    pub kind: ExprKind,
+    /// Where.
+    pub span: Span,
+}
+
+#[derive(Clone, Debug)]
+#[allow(missing_docs)]
+pub enum ExprKind {
+    Literal(Literal),
+    /// A variable, enumerator or function name.
+    Name(Name),
+    /// `Color#Red`.
+    Enumerator {
+        ty: Name,
+        value: Name,
+    },
+    Direct(Address),
+    Unary(UnaryOp, Box<Expr>),
+    Binary(BinaryOp, Box<Expr>, Box<Expr>),
+    Member(Box<Expr>, Name),
+    /// `a[i, j]`.
+    Index(Box<Expr>, Vec<Expr>),
+    /// `w.3`, `w.%X3`, `d.%B1`.
+    Part {
+        base: Box<Expr>,
+        size: AddressSize,
+        index: u32,
+    },
+    Call {
+        callee: Box<Expr>,
+        args: Vec<Arg>,
+    },
+    /// Something was wrong here and has been reported.
+    Error,
+}
+
+/// An argument of a call.
+#[derive(Clone, Debug)]
+#[allow(missing_docs)]
+pub enum Arg {
+    Positional(Expr),
+    /// `name := value`; the value may be left out (vendor).
+    Input {
+        name: Name,
+        value: Option<Expr>,
+    },
+    /// `name => target`, `NOT name => target`; the target may be left out.
+    Output {
+        name: Name,
+        negated: bool,
+        target: Option<Expr>,
+    },
+}
+
+/// A literal. Untyped numbers take their type from the context (§1.5 of the language reference).
+#[derive(Clone, Debug, PartialEq)]
+#[allow(missing_docs)]
+pub enum Literal {
+    /// Decimal or based integer; `based` ones also fit bit strings.
+    Int {
+        value: i128,
+        based: bool,
+    },
+    Real(f64),
+    Bool(bool),
+    /// Bytes without the zero.
+    String(Vec<u8>),
+    WString(Vec<u16>),
+    /// Nanoseconds, since 1970 or since midnight for dates and times of day. The type is TIME, LTIME, DATE, LDATE, TOD, LTOD, DT or LDT.
+    Time {
+        ty: takt_image::Elementary,
+        nanos: i64,
+    },
+    /// `INT#5`, `REAL#1.5`, `BOOL#TRUE`, `STRING#'x'`, `CHAR#'x'`: the type as written; the parser has not checked the range.
+    Typed {
+        ty: takt_image::Elementary,
+        value: Box<Literal>,
+    },
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum UnaryOp {
+    Neg,
+    Plus,
+    Not,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[allow(missing_docs)]
+pub enum BinaryOp {
+    Or,
+    Xor,
+    And,
+    Eq,
+    Ne,
+    Lt,
+    Gt,
+    Le,
+    Ge,
+    Add,
+    Sub,
+    Mul,
+    Div,
+    Mod,
+    Power,
+    /// AND_THEN, OR_ELSE (vendor): always short-circuit.
+    AndThen,
+    OrElse,
+}
+
+impl BinaryOp {
+    /// As the user writes it.
+    pub const fn text(self) -> &'static str {
+        use BinaryOp::*;
+        match self {
+            Or => "OR",
+            Xor => "XOR",
+            And => "AND",
+            Eq => "=",
+            Ne => "<>",
+            Lt => "<",
+            Gt => ">",
+            Le => "<=",
+            Ge => ">=",
+            Add => "+",
+            Sub => "-",
+            Mul => "*",
+            Div => "/",
+            Mod => "MOD",
+            Power => "**",
+            AndThen => "AND_THEN",
+            OrElse => "OR_ELSE",
+        }
+    }
+}
