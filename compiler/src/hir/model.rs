@@ -1,5 +1,6 @@
 //! The typed program: names have become ids, every expression has a type, every implicit conversion is written out, calls have all
 //! their arguments in order. ST, IL and the graphical languages meet here.
+#![allow(missing_docs)] // the names of fields and variants say it; what they do not say stands beside them
 
 use crate::syntax::ast::{BinaryOp, Edge};
 use takt_base::index::IndexVec;
@@ -64,7 +65,6 @@ pub struct Pou {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)]
 pub enum PouKind {
     Function,
     FunctionBlock,
@@ -91,7 +91,6 @@ pub struct Var {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)]
 pub enum Role {
     Input,
     Output,
@@ -189,7 +188,6 @@ pub struct Stmt {
 }
 
 #[derive(Debug)]
-#[allow(missing_docs)]
 pub enum StmtKind {
     /// The value has the target's type; strings may have another capacity and are cut.
     Assign {
@@ -238,7 +236,6 @@ pub enum StmtKind {
 
 /// An output that a call hands back.
 #[derive(Debug)]
-#[allow(missing_docs)]
 pub struct Output {
     pub var: VarId,
     pub target: Place,
@@ -259,7 +256,6 @@ pub struct Expr {
 }
 
 #[derive(Clone, Debug)]
-#[allow(missing_docs)]
 pub enum ExprKind {
     Const(Const),
     Load(Place),
@@ -312,7 +308,6 @@ pub enum Conversion {
 
 /// An argument of a user function or a block input.
 #[derive(Clone, Debug)]
-#[allow(missing_docs)]
 pub enum Arg {
     /// VAR_INPUT by value.
     Value(Expr),
@@ -339,7 +334,6 @@ pub struct Place {
 
 /// Start of a place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)]
 pub enum Base {
     /// Variable of the running unit; a VAR_IN_OUT means what it refers to.
     Var(VarId),
@@ -350,7 +344,6 @@ pub enum Base {
 
 /// A step along a place.
 #[derive(Clone, Debug)]
-#[allow(missing_docs)]
 pub enum Step {
     /// Field of a structure or instance, by index.
     Field(u32),

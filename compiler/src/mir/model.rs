@@ -3,6 +3,7 @@
 //! Locals are assigned any number of times; the code generator turns them into SSA values. Memory is reached through 32-bit
 //! offsets from the start of the resource memory ([`takt_image::memory`]), so an address is an `i32` local and the interpreter and
 //! native code see the same bytes. BOOL is an `i8` that is always 0 or 1.
+#![allow(missing_docs)] // the names of fields and variants say it; what they do not say stands beside them
 
 use takt_base::index::IndexVec;
 use takt_image::{NativeImport, Scalar, Trap};
@@ -161,7 +162,6 @@ pub struct NativeArg {
 
 /// One operand.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[allow(missing_docs)]
 pub enum UnaryOp {
     /// Integer negation, wraps.
     Neg,
@@ -181,7 +181,6 @@ pub enum UnaryOp {
 
 /// Two operands of one type.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[allow(missing_docs)]
 pub enum BinaryOp {
     Add,
     Sub,
@@ -210,7 +209,6 @@ pub enum BinaryOp {
 
 /// Comparison.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[allow(missing_docs)]
 pub enum Compare {
     Eq,
     Ne,
@@ -233,7 +231,6 @@ pub enum Compare {
 
 /// Conversion between machine types.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[allow(missing_docs)]
 pub enum Convert {
     /// To a wider integer.
     SignExtend,

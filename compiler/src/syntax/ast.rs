@@ -1,5 +1,6 @@
 //! The tree of a source file, as written: names are text, nothing has a type yet. Every node knows its span.
 //! From: IEC 61131-3 edition 3, §6 and §7.3. Shared by all textual languages.
+#![allow(missing_docs)] // the names of fields and variants say it; what they do not say stands beside them
 
 use takt_base::Span;
 
@@ -32,7 +33,6 @@ pub struct File {
 
 /// A declaration of a file.
 #[derive(Clone, Debug)]
-#[allow(missing_docs)]
 pub enum Item {
     Types(Vec<TypeDecl>),
     Pou(Pou),
@@ -61,7 +61,6 @@ pub struct Pou {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)]
 pub enum PouKind {
     Function,
     FunctionBlock,
@@ -84,7 +83,6 @@ pub struct VarSection {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)]
 pub enum SectionKind {
     Var,
     Temp,
@@ -113,7 +111,6 @@ pub struct VarDecl {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)]
 pub enum Edge {
     Rising,
     Falling,
@@ -133,7 +130,6 @@ pub struct Address {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)]
 pub enum Area {
     Input,
     Output,
@@ -141,7 +137,6 @@ pub enum Area {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)]
 pub enum AddressSize {
     Bit,
     Byte,
@@ -163,7 +158,6 @@ pub struct TypeDecl {
 
 /// Right side of a type declaration.
 #[derive(Clone, Debug)]
-#[allow(missing_docs)]
 pub enum TypeBody {
     /// Alias, array, string, subrange.
     Ref(TypeRef),
@@ -193,7 +187,6 @@ pub struct TypeRef {
 }
 
 #[derive(Clone, Debug)]
-#[allow(missing_docs)]
 pub enum TypeRefKind {
     /// Elementary, derived or POU name.
     Named(Name),
@@ -222,7 +215,6 @@ pub enum TypeRefKind {
 
 /// An initial value.
 #[derive(Clone, Debug)]
-#[allow(missing_docs)]
 pub enum Init {
     Expr(Expr),
     /// `[1, 2(0), (a := 1)]`
@@ -233,7 +225,6 @@ pub enum Init {
 
 /// An element of an array initial value.
 #[derive(Clone, Debug)]
-#[allow(missing_docs)]
 pub enum ArrayInit {
     One(Init),
     /// `3(0, 1)`; an empty list means default elements.
@@ -263,7 +254,6 @@ pub struct Configuration {
 
 /// RESOURCE name ON type.
 #[derive(Clone, Debug)]
-#[allow(missing_docs)]
 pub struct Resource {
     pub name: Option<Name>,
     pub globals: Vec<VarSection>,
@@ -273,7 +263,6 @@ pub struct Resource {
 
 /// `TASK name (SINGLE := s, INTERVAL := T#10ms, PRIORITY := 1);`
 #[derive(Clone, Debug)]
-#[allow(missing_docs)]
 pub struct TaskDecl {
     pub name: Name,
     pub single: Option<Expr>,
@@ -283,7 +272,6 @@ pub struct TaskDecl {
 
 /// `PROGRAM name WITH task : Type (in := global, out => global);`
 #[derive(Clone, Debug)]
-#[allow(missing_docs)]
 pub struct ProgramDecl {
     pub name: Name,
     pub retain: Option<bool>,
@@ -302,7 +290,6 @@ pub struct Stmt {
 }
 
 #[derive(Clone, Debug)]
-#[allow(missing_docs)]
 pub enum StmtKind {
     Assign {
         target: Expr,
@@ -346,7 +333,6 @@ pub enum StmtKind {
 
 /// Labels and statements of a CASE branch.
 #[derive(Clone, Debug)]
-#[allow(missing_docs)]
 pub struct CaseArm {
     pub labels: Vec<CaseLabel>,
     pub body: Vec<Stmt>,
@@ -354,7 +340,6 @@ pub struct CaseArm {
 
 /// `low` or `low..high`.
 #[derive(Clone, Debug)]
-#[allow(missing_docs)]
 pub struct CaseLabel {
     pub low: Expr,
     pub high: Option<Expr>,
@@ -370,7 +355,6 @@ pub struct Expr {
 }
 
 #[derive(Clone, Debug)]
-#[allow(missing_docs)]
 pub enum ExprKind {
     Literal(Literal),
     /// A variable, enumerator or function name.
@@ -402,7 +386,6 @@ pub enum ExprKind {
 
 /// An argument of a call.
 #[derive(Clone, Debug)]
-#[allow(missing_docs)]
 pub enum Arg {
     Positional(Expr),
     /// `name := value`; the value may be left out (vendor).
@@ -420,7 +403,6 @@ pub enum Arg {
 
 /// A literal. Untyped numbers take their type from the context (§1.5 of the language reference).
 #[derive(Clone, Debug, PartialEq)]
-#[allow(missing_docs)]
 pub enum Literal {
     /// Decimal or based integer; `based` ones also fit bit strings.
     Int {
@@ -445,7 +427,6 @@ pub enum Literal {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)]
 pub enum UnaryOp {
     Neg,
     Plus,
@@ -453,7 +434,6 @@ pub enum UnaryOp {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[allow(missing_docs)]
 pub enum BinaryOp {
     Or,
     Xor,
