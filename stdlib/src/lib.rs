@@ -5,5 +5,13 @@ pub mod lookup;
 
 pub use lookup::{ConversionType, Found, lookup};
 
-/// The function blocks as ST text: file name and contents. The compiler parses them before the user's files.
-pub const SOURCES: &[(&str, &str)] = &[];
+macro_rules! sources {
+    ($($file:literal)*) => {
+        /// The function blocks as ST text: file name and contents. The compiler parses them before the user's files.
+        pub const SOURCES: &[(&str, &str)] = &[$(($file, include_str!(concat!("../st/", $file)))),*];
+    };
+}
+
+sources! {
+    "bistables.st" "edges.st" "ctu.st" "ctd.st" "ctud.st" "ton.st" "tof.st" "tp.st" "rtc.st" "sema.st"
+}
