@@ -1,0 +1,1 @@
+//! JSON forms of values: the contract of `takt sim --format json`.
