@@ -1,7 +1,6 @@
 //! The keys of `takt.toml`. Unknown keys are errors; `takt explain takt.toml` prints [`super::REFERENCE`].
 
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
 
 /// The whole file.
 #[derive(Clone, Debug, Default, Deserialize, Serialize)]
@@ -50,6 +49,7 @@ pub struct MotionKeys {
 #[serde(deny_unknown_fields, default)]
 pub struct AxisKeys {
     pub name: String,
+    pub letter: Option<char>,
     pub v_max_mm_s: Option<f64>,
     pub a_max_mm_s2: Option<f64>,
     pub travel_min_mm: Option<f64>,
@@ -69,11 +69,13 @@ pub struct AxisKeys {
 #[serde(deny_unknown_fields, default)]
 pub struct ChannelKeys {
     pub name: String,
-    pub axes: BTreeMap<String, String>,
+    pub axes: Vec<String>,
     pub mode: Option<String>,
     pub blu_mm: Option<f64>,
     pub handshake: Option<bool>,
     pub units: Option<String>,
     pub distance: Option<String>,
     pub arc_centres: Option<String>,
+    pub require_homed: Option<bool>,
+    pub aux_timeout: Option<String>,
 }
