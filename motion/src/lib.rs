@@ -2,3 +2,7 @@
 //! Everything before the ring runs in the background, everything behind it is cyclic. See ARCHITECTURE.md.
 
 pub mod canon;
+pub mod ngc;
+pub mod print;
+pub mod stats;
+pub mod toolpath;
