@@ -1,0 +1,378 @@
+//! A picture of plane curves as SVG: equal scale on both axes, y up, a grid labelled in mm, markers, a legend.
+//! Knows nothing of machines: other modules add curves to it.
+//!
+//! `Picture::new("plate").curve("commanded", points, Style::feed()).to_svg()`
+
+use crate::print::number;
+use std::fmt::Write;
+
+/// A point in mm, x to the right and y up.
+pub type Point = [f64; 2];
+
+/// How a curve looks.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Style {
+    /// CSS colour.
+    pub colour: String,
+    /// Line width in pixels.
+    pub width: f64,
+    /// Dashed.
+    pub dashed: bool,
+}
+
+impl Style {
+    /// Solid, of a colour.
+    pub fn solid(colour: &str, width: f64) -> Self {
+        Style { colour: colour.to_owned(), width, dashed: false }
+    }
+    /// Dashed, of a colour.
+    pub fn dashed(colour: &str, width: f64) -> Self {
+        Style { dashed: true, ..Style::solid(colour, width) }
+    }
+    /// Feed moves.
+    pub fn feed() -> Self {
+        Style::solid("#0b62a4", 2.0)
+    }
+    /// Traverses.
+    pub fn rapid() -> Self {
+        Style::dashed("#d2691e", 1.2)
+    }
+    /// A measured or simulated path over a commanded one.
+    pub fn actual() -> Self {
+        Style::solid("#c2185b", 1.0)
+    }
+}
+
+struct Curve {
+    name: String,
+    points: Vec<Point>,
+    style: Style,
+}
+
+struct Marker {
+    name: String,
+    at: Point,
+    colour: String,
+}
+
+/// Curves and markers to draw. Curves of the same name share a legend entry.
+pub struct Picture {
+    title: String,
+    axes: [String; 2],
+    curves: Vec<Curve>,
+    markers: Vec<Marker>,
+}
+
+/// Longer side of the drawing area in pixels.
+const SIZE: f64 = 720.0;
+/// Space around the drawing area for labels, in pixels: left, top, right, bottom.
+const MARGIN: [f64; 4] = [64.0, 48.0, 24.0, 52.0];
+/// Height of a legend row in pixels.
+const ROW: f64 = 20.0;
+
+impl Picture {
+    /// An empty picture.
+    pub fn new(title: impl Into<String>) -> Self {
+        Picture { title: title.into(), axes: ["X".into(), "Y".into()], curves: Vec::new(), markers: Vec::new() }
+    }
+
+    /// Names of the horizontal and the vertical axis.
+    pub fn axes(mut self, horizontal: &str, vertical: &str) -> Self {
+        self.axes = [horizontal.to_owned(), vertical.to_owned()];
+        self
+    }
+
+    /// Adds a curve through `points` (mm). Points that are not finite are left out.
+    pub fn curve(mut self, name: &str, points: impl IntoIterator<Item = Point>, style: Style) -> Self {
+        let points: Vec<Point> = points.into_iter().filter(|p| p[0].is_finite() && p[1].is_finite()).collect();
+        if !points.is_empty() {
+            self.curves.push(Curve { name: name.to_owned(), points, style });
+        }
+        self
+    }
+
+    /// Adds a dot with a name (mm).
+    pub fn marker(mut self, name: &str, at: Point, colour: &str) -> Self {
+        if at[0].is_finite() && at[1].is_finite() {
+            self.markers.push(Marker { name: name.to_owned(), at, colour: colour.to_owned() });
+        }
+        self
+    }
+
+    /// The picture as the text of an SVG file.
+    pub fn to_svg(&self) -> String {
+        let frame = Frame::around(self);
+        let legend = self.legend();
+        let [left, top, right, bottom] = MARGIN;
+        let width = frame.width + left + right;
+        let height = frame.height + top + bottom + ROW * legend.len().div_ceil(PER_ROW) as f64;
+        let mut out = format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width:.0}\" height=\"{height:.0}\" \
+             viewBox=\"0 0 {width:.0} {height:.0}\" font-family=\"sans-serif\" font-size=\"12\">\n\
+             <rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n"
+        );
+        self.draw_title(&mut out, &frame);
+        frame.draw_grid(&mut out, &self.axes);
+        self.curves.iter().for_each(|c| c.draw(&mut out, &frame));
+        self.draw_markers(&mut out, &frame);
+        draw_legend(&mut out, &legend, &frame);
+        out.push_str("</svg>\n");
+        out
+    }
+
+    fn draw_title(&self, out: &mut String, frame: &Frame) {
+        let x = MARGIN[0] + frame.width / 2.0;
+        let title = escaped(&self.title);
+        let _ = writeln!(out, "<text x=\"{x:.1}\" y=\"28\" text-anchor=\"middle\" font-size=\"16\" fill=\"#222\">{title}</text>");
+    }
+
+    fn draw_markers(&self, out: &mut String, frame: &Frame) {
+        for marker in &self.markers {
+            let [x, y] = frame.place(marker.at);
+            let colour = escaped(&marker.colour);
+            let _ = writeln!(
+                out,
+                "<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"4.5\" fill=\"{colour}\" stroke=\"#fff\" stroke-width=\"1.2\"/>"
+            );
+        }
+    }
+
+    /// One entry a name, in the order added.
+    fn legend(&self) -> Vec<Entry<'_>> {
+        let mut entries: Vec<Entry> = Vec::new();
+        for curve in &self.curves {
+            if !entries.iter().any(|e| e.name == curve.name) {
+                entries.push(Entry { name: &curve.name, line: Some(&curve.style), colour: &curve.style.colour });
+            }
+        }
+        entries.extend(self.markers.iter().map(|m| Entry { name: &m.name, line: None, colour: &m.colour }));
+        entries
+    }
+}
+
+struct Entry<'a> {
+    name: &'a str,
+    line: Option<&'a Style>,
+    colour: &'a str,
+}
+
+/// Legend entries in a row.
+const PER_ROW: usize = 4;
+
+fn draw_legend(out: &mut String, entries: &[Entry], frame: &Frame) {
+    let top = MARGIN[1] + frame.height + MARGIN[3] - 2.0;
+    let step = (frame.width / PER_ROW as f64).max(110.0);
+    for (i, entry) in entries.iter().enumerate() {
+        let x = MARGIN[0] + step * (i % PER_ROW) as f64;
+        let y = top + ROW * (i / PER_ROW) as f64;
+        let colour = escaped(entry.colour);
+        let _ = match entry.line {
+            Some(style) => writeln!(
+                out,
+                "<line x1=\"{x:.1}\" y1=\"{y:.1}\" x2=\"{:.1}\" y2=\"{y:.1}\" stroke=\"{colour}\" stroke-width=\"{}\"{}/>",
+                x + 26.0,
+                style.width,
+                dashes(style)
+            ),
+            None => writeln!(out, "<circle cx=\"{:.1}\" cy=\"{y:.1}\" r=\"4.5\" fill=\"{colour}\"/>", x + 13.0),
+        };
+        let _ = writeln!(out, "<text x=\"{:.1}\" y=\"{:.1}\" fill=\"#222\">{}</text>", x + 32.0, y + 4.0, escaped(entry.name));
+    }
+}
+
+impl Curve {
+    fn draw(&self, out: &mut String, frame: &Frame) {
+        let Style { colour, width, .. } = &self.style;
+        let _ = write!(out, "<polyline fill=\"none\" stroke=\"{}\" stroke-width=\"{width}\"", escaped(colour));
+        let _ = write!(out, "{} stroke-linejoin=\"round\" stroke-linecap=\"round\" points=\"", dashes(&self.style));
+        for (i, &point) in self.points.iter().enumerate() {
+            let [x, y] = frame.place(point);
+            let _ = write!(out, "{}{x:.2},{y:.2}", if i > 0 { " " } else { "" });
+        }
+        out.push_str("\"/>\n");
+    }
+}
+
+fn dashes(style: &Style) -> &'static str {
+    if style.dashed { " stroke-dasharray=\"6 4\"" } else { "" }
+}
+
+/// From mm to pixels.
+struct Frame {
+    min: Point,
+    max: Point,
+    /// Pixels per mm.
+    scale: f64,
+    width: f64,
+    height: f64,
+}
+
+impl Frame {
+    /// Around all curves and markers, with a border of 4 % and at least 1 mm each way.
+    fn around(picture: &Picture) -> Self {
+        let all = || picture.curves.iter().flat_map(|c| c.points.iter().copied()).chain(picture.markers.iter().map(|m| m.at));
+        let (mut min, mut max) = all().next().map_or(([0.0; 2], [1.0; 2]), |p| (p, p));
+        for p in all() {
+            for i in 0..2 {
+                min[i] = min[i].min(p[i]);
+                max[i] = max[i].max(p[i]);
+            }
+        }
+        let longest = (max[0] - min[0]).max(max[1] - min[1]);
+        for i in 0..2 {
+            let short = longest.max(1.0) * 0.25 - (max[i] - min[i]);
+            let border = (longest * 0.04).max(short / 2.0).max(0.04);
+            min[i] -= border;
+            max[i] += border;
+        }
+        let scale = SIZE / (max[0] - min[0]).max(max[1] - min[1]);
+        Frame { min, max, scale, width: (max[0] - min[0]) * scale, height: (max[1] - min[1]) * scale }
+    }
+
+    fn place(&self, p: Point) -> Point {
+        [MARGIN[0] + (p[0] - self.min[0]) * self.scale, MARGIN[1] + (self.max[1] - p[1]) * self.scale]
+    }
+
+    fn draw_grid(&self, out: &mut String, axes: &[String; 2]) {
+        let [left, top, ..] = MARGIN;
+        let (right, bottom) = (left + self.width, top + self.height);
+        let step = grid_step(self.max[0] - self.min[0], self.max[1] - self.min[1]);
+        for value in ticks(self.min[0], self.max[0], step) {
+            let x = self.place([value, 0.0])[0];
+            let _ =
+                writeln!(out, "<line x1=\"{x:.2}\" y1=\"{top}\" x2=\"{x:.2}\" y2=\"{bottom:.2}\" stroke=\"{}\"/>", shade(value));
+            let y = bottom + 16.0;
+            let _ = writeln!(out, "<text x=\"{x:.2}\" y=\"{y:.1}\" text-anchor=\"middle\" fill=\"#555\">{}</text>", label(value));
+        }
+        for value in ticks(self.min[1], self.max[1], step) {
+            let y = self.place([0.0, value])[1];
+            let _ =
+                writeln!(out, "<line x1=\"{left}\" y1=\"{y:.2}\" x2=\"{right:.2}\" y2=\"{y:.2}\" stroke=\"{}\"/>", shade(value));
+            let (x, y) = (left - 6.0, y + 4.0);
+            let _ = writeln!(out, "<text x=\"{x:.1}\" y=\"{y:.2}\" text-anchor=\"end\" fill=\"#555\">{}</text>", label(value));
+        }
+        let _ = writeln!(
+            out,
+            "<rect x=\"{left}\" y=\"{top}\" width=\"{:.2}\" height=\"{:.2}\" fill=\"none\" stroke=\"#999\"/>",
+            self.width, self.height
+        );
+        self.draw_axis_names(out, axes);
+    }
+
+    fn draw_axis_names(&self, out: &mut String, axes: &[String; 2]) {
+        let [left, top, ..] = MARGIN;
+        let (x, y) = (left + self.width / 2.0, top + self.height + 33.0);
+        let _ = writeln!(
+            out,
+            "<text x=\"{x:.1}\" y=\"{y:.1}\" text-anchor=\"middle\" fill=\"#222\">{} [mm]</text>",
+            escaped(&axes[0])
+        );
+        let y = top + self.height / 2.0;
+        let _ = writeln!(
+            out,
+            "<text x=\"16\" y=\"{y:.1}\" text-anchor=\"middle\" fill=\"#222\" transform=\"rotate(-90 16 {y:.1})\">{} [mm]</text>",
+            escaped(&axes[1])
+        );
+    }
+}
+
+/// 1, 2 or 5 times a power of ten: about ten lines along the longer side.
+fn grid_step(width: f64, height: f64) -> f64 {
+    let wanted = width.max(height) / 10.0;
+    let power = libm::pow(10.0, libm::floor(libm::log10(wanted)));
+    [1.0, 2.0, 5.0].map(|m| m * power).into_iter().find(|&s| s >= wanted * 0.999).unwrap_or(10.0 * power)
+}
+
+/// Multiples of `step` from `min` to `max`; at most 100.
+fn ticks(min: f64, max: f64, step: f64) -> impl Iterator<Item = f64> {
+    let first = (min / step).ceil();
+    (0..100u32).map(move |i| (first + f64::from(i)) * step).take_while(move |&v| v <= max)
+}
+
+fn shade(value: f64) -> &'static str {
+    if value == 0.0 { "#b0b0b0" } else { "#e6e6e6" }
+}
+
+/// No zeros behind the point.
+fn label(value: f64) -> String {
+    number(value).trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+fn escaped(text: &str) -> String {
+    let printable = text.chars().filter(|c| !c.is_control());
+    printable.fold(String::new(), |mut out, c| {
+        match c {
+            '&' => out.push_str("&amp;"),
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            '"' => out.push_str("&quot;"),
+            _ => out.push(c),
+        }
+        out
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Value of an attribute of the first element that contains `mark`.
+    fn attribute(svg: &str, mark: &str, name: &str) -> String {
+        let line = svg.lines().find(|l| l.contains(mark)).unwrap_or_else(|| panic!("no {mark}"));
+        let rest = line.split_once(&format!(" {name}=\"")).unwrap().1;
+        rest.split_once('"').unwrap().0.to_owned()
+    }
+
+    #[test]
+    fn scale_is_equal_and_y_points_up() {
+        let svg = Picture::new("t").curve("a", [[0.0, 0.0], [200.0, 0.0], [200.0, 100.0]], Style::feed()).to_svg();
+        let points: Vec<Point> = attribute(&svg, "<polyline", "points")
+            .split(' ')
+            .map(|p| p.split_once(',').map(|(x, y)| [x.parse().unwrap(), y.parse().unwrap()]).unwrap())
+            .collect();
+        let (across, up) = (points[1][0] - points[0][0], points[1][1] - points[2][1]);
+        assert!((across - 2.0 * up).abs() < 0.03 && up > 0.0, "{points:?}");
+    }
+
+    #[test]
+    fn same_picture_same_text_and_names_are_escaped() {
+        let make = || {
+            Picture::new("a < b & \"c\"")
+                .curve("x>y", [[0.0, 0.0], [1.0, 1.0]], Style::rapid())
+                .marker("s", [0.0, 0.0], "red")
+                .to_svg()
+        };
+        assert_eq!(make(), make());
+        assert!(
+            make().contains("a &lt; b &amp; &quot;c&quot;") && make().contains("x&gt;y") && make().contains("stroke-dasharray")
+        );
+    }
+
+    #[test]
+    fn curves_of_one_name_share_a_legend_entry() {
+        let curve = |p: Picture, x| p.curve("feed", [[x, 0.0], [x, 1.0]], Style::feed());
+        let svg = curve(curve(Picture::new("t"), 0.0), 5.0).to_svg();
+        assert_eq!(svg.matches(">feed</text>").count(), 1);
+        assert_eq!(svg.matches("<polyline").count(), 2);
+    }
+
+    #[test]
+    fn nothing_one_point_and_bad_points_can_be_drawn() {
+        for picture in [
+            Picture::new(""),
+            Picture::new("").curve("a", [[3.0, 4.0]], Style::feed()),
+            Picture::new("").curve("a", [[f64::NAN, 0.0], [1e12, 1e12], [f64::INFINITY, 0.0]], Style::feed()),
+            Picture::new("").curve("a", [[1e12, 0.0], [1e12 + 0.001, 0.0]], Style::feed()),
+        ] {
+            let svg = picture.to_svg();
+            assert!(svg.ends_with("</svg>\n") && !svg.contains("NaN") && !svg.contains("inf"), "{svg}");
+        }
+    }
+
+    #[test]
+    fn grid_steps_are_round() {
+        for (extent, want) in [(236.0, 50.0), (100.0, 10.0), (1.0, 0.1), (13.0, 2.0)] {
+            assert!((grid_step(extent, 1.0) - want).abs() < 1e-12, "{extent}");
+        }
+    }
+}
