@@ -2,11 +2,11 @@
 //! work offset, path control, distance modes, motion, stop.
 
 use super::block::{Block, Comment};
+use super::limits;
 use super::modal::{Modal, mm_per_unit, scaled};
 use super::motion;
 use super::options::Options;
 use super::request::{Request, bad_value};
-use super::travel;
 use super::word::{Action, Coolant, Group, Stop};
 use crate::canon::{Canon, Direction, Plane, ProgramEnd};
 use takt_base::units::MmPerMin;
@@ -199,7 +199,7 @@ impl Run<'_> {
         let (end, command) = motion::command(motion, self.request, self.modal, &mut self.out.diags);
         match command {
             Ok(command) => {
-                self.out.diags.extend(travel::check(&command, self.request.span, self.modal, self.options));
+                self.out.diags.extend(limits::check(&command, self.request.span, self.modal, self.options));
                 self.emit(command);
             }
             Err(diag) => {

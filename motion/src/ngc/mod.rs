@@ -8,13 +8,13 @@ pub mod arc;
 pub mod block;
 mod execute;
 pub mod interpreter;
+mod limits;
 pub mod lines;
 pub mod modal;
 mod motion;
 mod number;
 pub mod options;
 mod request;
-mod travel;
 pub mod word;
 
 pub use interpreter::{Interpreter, check};

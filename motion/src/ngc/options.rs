@@ -5,7 +5,7 @@ use super::lines::Style;
 use super::modal::{Distance, Motion};
 use super::word::{Action, Control};
 use crate::canon::{MotionMode, Plane, Position, Units};
-use takt_base::units::MmPerMin;
+use takt_base::units::{Mm, MmPerMin};
 use takt_base::{Code, Diag, SourceId, Span};
 
 /// Travel of the axes in machine coordinates: mm and degrees.
@@ -45,6 +45,9 @@ pub struct Options {
     pub feed_max: Option<MmPerMin>,
     /// Travel that a program must keep to (R1-103); `None`: not checked here.
     pub travel: Option<Travel>,
+    /// Basic length unit that all places of a program must be whole numbers of (PC-20): what a reference-pulse control needs;
+    /// `None`: not checked here.
+    pub grid: Option<Mm>,
 }
 
 impl Default for Options {
@@ -64,6 +67,7 @@ impl Default for Options {
             start: Position::default(),
             feed_max: None,
             travel: None,
+            grid: None,
         }
     }
 }
