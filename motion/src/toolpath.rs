@@ -128,7 +128,7 @@ impl Move {
         if path > 0.0 && feed > 0.0 { path / feed * 60.0 } else { 0.0 }
     }
 
-    /// Points whose polygon stays within `chord` mm of the path, start and end among them.
+    /// Points whose polygon stays within `chord` mm of the path, start and end among them; at most 2000 chords.
     pub fn points(&self, chord: f64) -> Vec<Position> {
         match self.kind {
             Kind::Arc { sweep, .. } => sweep.points(segments(&sweep, chord)).collect(),
@@ -145,12 +145,12 @@ impl Move {
     }
 }
 
-/// Number of chords for an arc: chord error r (1 - cos(step / 2)) <= `chord`; at most 720 a turn, 100 000 in all.
+/// Number of chords for an arc: chord error r (1 - cos(step / 2)) <= `chord`; at most 720 a turn, 2000 in all.
 fn segments(sweep: &Sweep, chord: f64) -> u32 {
     let r = sweep.radius.max(sweep.end_radius);
     let finest = std::f64::consts::TAU / 720.0;
     let step = if chord < r { 2.0 * libm::acos(1.0 - chord / r) } else { 1.0 };
-    (sweep.sweep.abs() / step.clamp(finest, 0.5)).ceil().clamp(1.0, 100_000.0) as u32
+    (sweep.sweep.abs() / step.clamp(finest, 0.5)).ceil().clamp(1.0, 2000.0) as u32
 }
 
 fn linear_length(p: Position, q: Position) -> f64 {
