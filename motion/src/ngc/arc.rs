@@ -213,7 +213,7 @@ mod tests {
         let full = centre([0.0002, 0.0], -1.0, false).unwrap();
         assert!(near(full[0], 0.0001) && (full[1] - 1.0).abs() < 1e-8);
         let full = centre([0.0001, 0.0001], -1.0, false).unwrap();
-        assert!((full[0] + 0.7071).abs() < 1e-4 && (full[1] - 0.7072).abs() < 1e-4, "{full:?}");
+        assert!((full[0] + 0.5f64.sqrt()).abs() < 1e-4 && (full[1] - 0.5f64.sqrt()).abs() < 1e-4, "{full:?}");
         assert_eq!(centre([2.0, 0.0], 0.99, false), None);
         assert_eq!(centre([0.0, 0.0], 1.0, false), None);
     }

@@ -124,6 +124,7 @@ impl Iterator for Interpreter {
     type Item = Result<Step, Box<Diag>>;
 
     /// The next command, or the error of the next block: then nothing of that block has been given out, and nothing follows.
+    /// Warnings are left to [`check`].
     fn next(&mut self) -> Option<Self::Item> {
         loop {
             if let Some(step) = self.queue.pop_front() {
@@ -152,4 +153,31 @@ fn prologue(modal: &Modal, options: &Options) -> [Canon; 5] {
         Canon::SelectPlane(modal.plane),
         Canon::SetMotionControlMode(modal.control),
     ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::canon::Position;
+
+    fn near(p: Position, x: f64, y: f64) -> bool {
+        (p.x - x).abs() < 5e-6 && (p.y - y).abs() < 5e-6 && p.z == 0.0
+    }
+
+    /// CM-T4, CM-T5: offsets and units renumber the position and the feed, and nothing moves.
+    #[test]
+    fn renumbering() {
+        let place = |x, y| Position { x, y, ..Position::default() };
+        let mut options = Options { start: place(100.0, 50.0), ..Options::default() };
+        options.work_offsets[1] = place(10.0, 20.0);
+        let behind = |text: &str| {
+            let mut interpreter = Interpreter::new(SourceId(0), text, options.clone());
+            assert!(interpreter.by_ref().all(|s| s.is_ok_and(|s| !matches!(s.command, Canon::StraightTraverse(_)))));
+            *interpreter.modal()
+        };
+        assert!(near(behind("F1000 G55").position, 90.0, 30.0));
+        let modal = behind("F1000 G55\nG20");
+        assert!(near(modal.position, 3.54331, 1.18110), "{modal:?}");
+        assert!(modal.feed.is_some_and(|f| (f - 39.3701).abs() < 5e-5));
+    }
 }

@@ -22,7 +22,8 @@ pub const AXES: [char; 6] = ['X', 'Y', 'Z', 'A', 'B', 'C'];
 pub const CENTRE: [char; 4] = ['I', 'J', 'K', 'R'];
 
 impl Request {
-    /// Sorts the words of `block`; what is wrong goes to `out`, and the rest is kept.
+    /// Sorts the words of `block`; what is wrong goes to `out`, and the rest is kept. With an unknown code there is no motion, and
+    /// no word counts as unused: nobody knows what it would have been for.
     pub fn new(block: &Block, modal: &Modal, out: &mut Vec<Diag>) -> Self {
         let mut request = Request { span: block.span, codes: [None; GROUPS], letters: [None; 26], motion: None };
         for word in &block.words {
@@ -31,10 +32,11 @@ impl Request {
                 _ => request.add_letter(word, out),
             }
         }
-        request.motion = request.find_motion(modal);
+        let known = block.words.iter().all(|w| !matches!(w.letter, 'G' | 'M') || w.action().is_some());
+        request.motion = request.find_motion(modal).filter(|_| known);
         let before = out.len();
         request.check_values(out);
-        if out.len() == before && block.words.iter().all(|w| !matches!(w.letter, 'G' | 'M') || w.action().is_some()) {
+        if known && out.len() == before {
             request.check_used(block, out);
         }
         request
@@ -107,8 +109,9 @@ impl Request {
         if let Some(word) = self.word('T').filter(|w| w.whole().is_none()) {
             out.push(bad_value(word, "not the number of a tool", "write a whole number from 0"));
         }
-        let timed = self.code(Group::NonModal).is_some() || self.code(Group::Control).is_some();
-        if let Some(word) = self.word('P').filter(|w| timed && w.value < 0.0) {
+        let positive = [Some(Action::Dwell), Some(Action::Control(Control::Continuous))];
+        let length = [Group::NonModal, Group::Control].iter().any(|&g| positive.contains(&self.code(g)));
+        if let Some(word) = self.word('P').filter(|w| length && w.value < 0.0) {
             out.push(bad_value(word, "less than zero", "write zero or more"));
         }
         if self.code(Group::NonModal) == Some(Action::Dwell) && self.word('P').is_none() {
