@@ -2,7 +2,7 @@
 
 use crate::canon::{Canon, Plane, Position, Step};
 use crate::ngc::modal::in_plane;
-use crate::svg::{Picture, Point, Style};
+use crate::svg::{Picture, Point, Stroke};
 use crate::toolpath::{Kind, Move, Tracker};
 
 /// Chord error of drawn arcs as a share of the largest dimension.
@@ -13,7 +13,7 @@ pub struct Drawing {
     tracker: Tracker,
     start: Position,
     moves: Vec<Move>,
-    /// Length of feed path in each plane, by the plane selected.
+    /// Length of path while each plane was selected, in mm.
     weight: [f64; 3],
     plane: Plane,
 }
@@ -35,14 +35,14 @@ impl Drawing {
         }
     }
 
-    /// The plane with motion in both of its axes: XY if there is any, else the selected plane with the longest path that has.
+    /// The plane that was selected for the longest path, if there is motion along both of its axes; else another that has; else XY.
     pub fn best_plane(&self) -> Plane {
         let mut planes = [Plane::Xy, Plane::Yz, Plane::Xz];
-        planes[1..].sort_by(|a, b| self.weight[*b as usize].total_cmp(&self.weight[*a as usize]));
-        planes.into_iter().find(|&plane| self.is_flat_in(plane)).unwrap_or(Plane::Xy)
+        planes.sort_by(|a, b| self.weight[*b as usize].total_cmp(&self.weight[*a as usize]));
+        planes.into_iter().find(|&plane| self.shows(plane)).unwrap_or(Plane::Xy)
     }
 
-    fn is_flat_in(&self, plane: Plane) -> bool {
+    fn shows(&self, plane: Plane) -> bool {
         let moves_along = |i: usize| self.moves.iter().any(|m| in_plane(m.from, plane)[i] != in_plane(m.to, plane)[i]);
         moves_along(0) && moves_along(1)
             || self.moves.iter().any(|m| matches!(m.kind, Kind::Arc { sweep, .. } if sweep.plane == plane))
@@ -54,8 +54,8 @@ impl Drawing {
         let mut picture = Picture::new(title).axes(across, up);
         let chord = self.size() * FINENESS;
         for (rapid, points) in self.runs(plane, chord) {
-            let (name, style) = if rapid { ("traverse", Style::rapid()) } else { ("feed", Style::feed()) };
-            picture = picture.curve(name, points, style);
+            let (name, stroke) = if rapid { ("traverse", Stroke::rapid()) } else { ("feed", Stroke::feed()) };
+            picture = picture.curve(name, points, stroke);
         }
         let end = self.moves.last().map_or(self.start, |m| m.to);
         picture.marker("start", flat(self.start, plane), "#2e7d32").marker("end", flat(end, plane), "#b71c1c")
@@ -136,6 +136,8 @@ mod tests {
             ("G18 G1 X5 F100\nZ5", Plane::Xz),
             ("G19 G1 Y5 F100\nZ5", Plane::Yz),
             ("G18 G2 I5 F100", Plane::Xz),
+            ("G18 G2 I5 Y3 F100", Plane::Xz),
+            ("G18 G1 X5 Y5 F100", Plane::Xy),
             ("G1 X5 F100", Plane::Xy),
             ("", Plane::Xy),
         ];

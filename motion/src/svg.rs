@@ -1,7 +1,7 @@
 //! A picture of plane curves as SVG: equal scale on both axes, y up, a grid labelled in mm, markers, a legend.
 //! Knows nothing of machines: other modules add curves to it.
 //!
-//! `Picture::new("plate").curve("commanded", points, Style::feed()).to_svg()`
+//! `Picture::new("plate").curve("commanded", points, Stroke::feed()).to_svg()`
 
 mod frame;
 
@@ -13,7 +13,7 @@ pub type Point = [f64; 2];
 
 /// How a curve looks.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Style {
+pub struct Stroke {
     /// CSS colour.
     pub colour: String,
     /// Line width in pixels.
@@ -22,33 +22,33 @@ pub struct Style {
     pub dashed: bool,
 }
 
-impl Style {
+impl Stroke {
     /// Solid, of a colour.
     pub fn solid(colour: &str, width: f64) -> Self {
-        Style { colour: colour.to_owned(), width, dashed: false }
+        Stroke { colour: colour.to_owned(), width, dashed: false }
     }
     /// Dashed, of a colour.
     pub fn dashed(colour: &str, width: f64) -> Self {
-        Style { dashed: true, ..Style::solid(colour, width) }
+        Stroke { dashed: true, ..Stroke::solid(colour, width) }
     }
     /// Feed moves.
     pub fn feed() -> Self {
-        Style::solid("#0b62a4", 2.0)
+        Stroke::solid("#0b62a4", 2.0)
     }
     /// Traverses.
     pub fn rapid() -> Self {
-        Style::dashed("#d2691e", 1.2)
+        Stroke::dashed("#d2691e", 1.2)
     }
     /// A measured or simulated path over a commanded one.
     pub fn actual() -> Self {
-        Style::solid("#c2185b", 1.0)
+        Stroke::solid("#c2185b", 1.0)
     }
 }
 
 struct Curve {
     name: String,
     points: Vec<Point>,
-    style: Style,
+    stroke: Stroke,
 }
 
 struct Marker {
@@ -81,10 +81,10 @@ impl Picture {
     }
 
     /// Adds a curve through `points` (mm). Points that are not finite are left out.
-    pub fn curve(mut self, name: &str, points: impl IntoIterator<Item = Point>, style: Style) -> Self {
+    pub fn curve(mut self, name: &str, points: impl IntoIterator<Item = Point>, stroke: Stroke) -> Self {
         let points: Vec<Point> = points.into_iter().filter(|p| p[0].is_finite() && p[1].is_finite()).collect();
         if !points.is_empty() {
-            self.curves.push(Curve { name: name.to_owned(), points, style });
+            self.curves.push(Curve { name: name.to_owned(), points, stroke });
         }
         self
     }
@@ -100,10 +100,10 @@ impl Picture {
     /// The picture as the text of an SVG file.
     pub fn to_svg(&self) -> String {
         let frame = Frame::around(self);
-        let legend = self.legend();
         let [left, top, right, bottom] = MARGIN;
         let width = frame.width + left + right;
-        let height = frame.height + top + bottom + ROW * legend.len().div_ceil(PER_ROW) as f64;
+        let (legend, rows) = laid_out(self.legend(), frame.width);
+        let height = frame.height + top + bottom + ROW * rows;
         let mut out = format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width:.0}\" height=\"{height:.0}\" \
              viewBox=\"0 0 {width:.0} {height:.0}\" font-family=\"sans-serif\" font-size=\"12\">\n\
@@ -140,7 +140,7 @@ impl Picture {
         let mut entries: Vec<Entry> = Vec::new();
         for curve in &self.curves {
             if !entries.iter().any(|e| e.name == curve.name) {
-                entries.push(Entry { name: &curve.name, line: Some(&curve.style), colour: &curve.style.colour });
+                entries.push(Entry { name: &curve.name, line: Some(&curve.stroke), colour: &curve.stroke.colour });
             }
         }
         entries.extend(self.markers.iter().map(|m| Entry { name: &m.name, line: None, colour: &m.colour }));
@@ -150,27 +150,38 @@ impl Picture {
 
 struct Entry<'a> {
     name: &'a str,
-    line: Option<&'a Style>,
+    line: Option<&'a Stroke>,
     colour: &'a str,
 }
 
-/// Legend entries in a row.
-const PER_ROW: usize = 4;
+/// Places for the entries: column in pixels and row, both from 0; and the number of rows. Names count 7 pixels a letter.
+fn laid_out(entries: Vec<Entry<'_>>, width: f64) -> (Vec<(f64, f64, Entry<'_>)>, f64) {
+    let (mut x, mut row) = (0.0, 0.0);
+    let mut places = Vec::new();
+    for entry in entries {
+        let wide = 52.0 + 7.0 * entry.name.chars().count() as f64;
+        if x > 0.0 && x + wide > width {
+            (x, row) = (0.0, row + 1.0);
+        }
+        places.push((x, row, entry));
+        x += wide;
+    }
+    let rows = if places.is_empty() { 0.0 } else { row + 1.0 };
+    (places, rows)
+}
 
-fn draw_legend(out: &mut String, entries: &[Entry], frame: &Frame) {
-    let top = MARGIN[1] + frame.height + MARGIN[3] - 2.0;
-    let step = (frame.width / PER_ROW as f64).max(110.0);
-    for (i, entry) in entries.iter().enumerate() {
-        let x = MARGIN[0] + step * (i % PER_ROW) as f64;
-        let y = top + ROW * (i / PER_ROW) as f64;
+fn draw_legend(out: &mut String, entries: &[(f64, f64, Entry)], frame: &Frame) {
+    let top = MARGIN[1] + frame.height + MARGIN[3] + 2.0;
+    for (x, row, entry) in entries {
+        let (x, y) = (MARGIN[0] + x, top + ROW * row);
         let colour = escaped(entry.colour);
         let _ = match entry.line {
-            Some(style) => writeln!(
+            Some(stroke) => writeln!(
                 out,
                 "<line x1=\"{x:.1}\" y1=\"{y:.1}\" x2=\"{:.1}\" y2=\"{y:.1}\" stroke=\"{colour}\" stroke-width=\"{}\"{}/>",
                 x + 26.0,
-                style.width,
-                dashes(style)
+                stroke.width,
+                dashes(stroke)
             ),
             None => writeln!(out, "<circle cx=\"{:.1}\" cy=\"{y:.1}\" r=\"4.5\" fill=\"{colour}\"/>", x + 13.0),
         };
@@ -180,9 +191,9 @@ fn draw_legend(out: &mut String, entries: &[Entry], frame: &Frame) {
 
 impl Curve {
     fn draw(&self, out: &mut String, frame: &Frame) {
-        let Style { colour, width, .. } = &self.style;
+        let Stroke { colour, width, .. } = &self.stroke;
         let _ = write!(out, "<polyline fill=\"none\" stroke=\"{}\" stroke-width=\"{width}\"", escaped(colour));
-        let _ = write!(out, "{} stroke-linejoin=\"round\" stroke-linecap=\"round\" points=\"", dashes(&self.style));
+        let _ = write!(out, "{} stroke-linejoin=\"round\" stroke-linecap=\"round\" points=\"", dashes(&self.stroke));
         for (i, &point) in self.points.iter().enumerate() {
             let [x, y] = frame.place(point);
             let _ = write!(out, "{}{x:.2},{y:.2}", if i > 0 { " " } else { "" });
@@ -191,8 +202,8 @@ impl Curve {
     }
 }
 
-fn dashes(style: &Style) -> &'static str {
-    if style.dashed { " stroke-dasharray=\"6 4\"" } else { "" }
+fn dashes(stroke: &Stroke) -> &'static str {
+    if stroke.dashed { " stroke-dasharray=\"6 4\"" } else { "" }
 }
 
 fn escaped(text: &str) -> String {
@@ -222,7 +233,7 @@ mod tests {
 
     #[test]
     fn scale_is_equal_and_y_points_up() {
-        let svg = Picture::new("t").curve("a", [[0.0, 0.0], [200.0, 0.0], [200.0, 100.0]], Style::feed()).to_svg();
+        let svg = Picture::new("t").curve("a", [[0.0, 0.0], [200.0, 0.0], [200.0, 100.0]], Stroke::feed()).to_svg();
         let points: Vec<Point> = attribute(&svg, "<polyline", "points")
             .split(' ')
             .map(|p| p.split_once(',').map(|(x, y)| [x.parse().unwrap(), y.parse().unwrap()]).unwrap())
@@ -235,7 +246,7 @@ mod tests {
     fn same_picture_same_text_and_names_are_escaped() {
         let make = || {
             Picture::new("a < b & \"c\"")
-                .curve("x>y", [[0.0, 0.0], [1.0, 1.0]], Style::rapid())
+                .curve("x>y", [[0.0, 0.0], [1.0, 1.0]], Stroke::rapid())
                 .marker("s", [0.0, 0.0], "red")
                 .to_svg()
         };
@@ -247,7 +258,7 @@ mod tests {
 
     #[test]
     fn curves_of_one_name_share_a_legend_entry() {
-        let curve = |p: Picture, x| p.curve("feed", [[x, 0.0], [x, 1.0]], Style::feed());
+        let curve = |p: Picture, x| p.curve("feed", [[x, 0.0], [x, 1.0]], Stroke::feed());
         let svg = curve(curve(Picture::new("t"), 0.0), 5.0).to_svg();
         assert_eq!(svg.matches(">feed</text>").count(), 1);
         assert_eq!(svg.matches("<polyline").count(), 2);
@@ -257,9 +268,9 @@ mod tests {
     fn nothing_one_point_and_bad_points_can_be_drawn() {
         for picture in [
             Picture::new(""),
-            Picture::new("").curve("a", [[3.0, 4.0]], Style::feed()),
-            Picture::new("").curve("a", [[f64::NAN, 0.0], [1e12, 1e12], [f64::INFINITY, 0.0]], Style::feed()),
-            Picture::new("").curve("a", [[1e12, 0.0], [1e12 + 0.001, 0.0]], Style::feed()),
+            Picture::new("").curve("a", [[3.0, 4.0]], Stroke::feed()),
+            Picture::new("").curve("a", [[f64::NAN, 0.0], [1e12, 1e12], [f64::INFINITY, 0.0]], Stroke::feed()),
+            Picture::new("").curve("a", [[1e12, 0.0], [1e12 + 0.001, 0.0]], Stroke::feed()),
         ] {
             let svg = picture.to_svg();
             assert!(svg.ends_with("</svg>\n") && !svg.contains("NaN") && !svg.contains("inf"), "{svg}");

@@ -9,8 +9,10 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 /// A point in the plane of an arc.
 pub type Point = [f64; 2];
 
-/// Sweeps below this are a full turn: end and start are the same but for rounding. In radians.
+/// An arc below both of these is a full turn: end and start are the same but for rounding. In radians, and in length units, so that a
+/// short arc of a very large radius stays short.
 const SAME_DIRECTION: f64 = 1e-6;
+const SAME_PLACE: f64 = 1e-5;
 
 /// Distance of `p` and `q`.
 pub fn distance(p: Point, q: Point) -> f64 {
@@ -41,7 +43,7 @@ pub fn sweep(start: Point, end: Point, centre: Point, rotation: i32) -> Option<f
     let (ex, ey) = (end[0] - centre[0], end[1] - centre[1]);
     let ccw = atan2(sx * ey - sy * ex, sx * ex + sy * ey);
     let mut first = if rotation > 0 { ccw } else { -ccw };
-    if first < SAME_DIRECTION {
+    if first < 0.0 || (first < SAME_DIRECTION && first * hypot(sx, sy) < SAME_PLACE) {
         first += TAU;
     }
     let magnitude = first.min(TAU) + f64::from(rotation.unsigned_abs() - 1) * TAU;
@@ -154,6 +156,8 @@ mod tests {
         }
         assert!(near(degrees([1.0, 0.0], [1.0, 1e-12], 1).unwrap(), 360.0));
         assert!(near(degrees([1.0, 0.0], [1.0, -1e-12], -1).unwrap(), -360.0));
+        assert!(near(degrees([1.0, 0.0], [1.0, -1e-12], 1).unwrap(), 360.0));
+        assert!(degrees([1e6, 0.0], [1e6, 0.5], 1).unwrap() < 1e-3);
     }
 
     /// CM-T9: ARC_FEED(0, 1, 0, 0, 1, 0) in XZ from Z1 X0 turns 90 degrees from +Z to +X.

@@ -29,7 +29,8 @@ pub struct Interpreter {
     ended: bool,
 }
 
-/// All errors and warnings of a program, in the order of the text. Goes on behind a wrong block with the state that it would have left.
+/// All errors and warnings of a program, in the order of the text up to M2, M30 or a closing `%`. Goes on behind a wrong block with the
+/// state that it would have left.
 pub fn check(source: SourceId, text: impl Into<Arc<str>>, options: Options) -> Vec<Diag> {
     let mut interpreter = Interpreter::new(source, text, options);
     let mut diags = Vec::new();

@@ -125,7 +125,7 @@ fn ends_with_semicolons(text: &str) -> bool {
         let (line, next) = line_at(text, at);
         at = next;
         let line = text[line].trim_matches([' ', '\t']);
-        if line.is_empty() || line.starts_with('%') || (line.starts_with('(') && line.ends_with(')')) {
+        if line.is_empty() || line.starts_with('%') || is_comment(line) {
             continue;
         }
         if line.starts_with(';') || !line.ends_with(';') {
@@ -134,6 +134,11 @@ fn ends_with_semicolons(text: &str) -> bool {
         found = true;
     }
     found
+}
+
+/// One comment in parentheses and nothing else.
+fn is_comment(line: &str) -> bool {
+    line.starts_with('(') && line.find(')') == Some(line.len() - 1)
 }
 
 fn is_blank(text: &str) -> bool {
@@ -160,6 +165,8 @@ mod tests {
         assert_eq!(pieces("a;b ;\n(;)c;", Style::Auto), [(1, "a"), (1, "b "), (2, "(;)c")]);
         assert_eq!(pieces("a;b ;\nc", Style::Auto), [(1, "a;b ;"), (2, "c")]);
         assert_eq!(pieces("a;b", Style::Semicolon), [(1, "a"), (1, "b")]);
+        assert_eq!(pieces("(x)\na;b;", Style::Auto), [(1, "(x)"), (2, "a"), (2, "b")]);
+        assert_eq!(pieces("(x) y (z)\na;b;", Style::Auto), [(1, "(x) y (z)"), (2, "a;b;")]);
         assert_eq!(pieces("a;\n;b;", Style::Auto), [(1, "a;"), (2, ";b;")]);
         assert_eq!(pieces("%\na ;\n%", Style::Auto), [(1, "%"), (2, "a "), (3, "%")]);
     }

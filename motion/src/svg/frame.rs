@@ -7,7 +7,10 @@ use std::fmt::Write;
 /// Longer side of the drawing area in pixels.
 const SIZE: f64 = 720.0;
 /// Space around the drawing area for labels, in pixels: left, top, right, bottom.
-pub const MARGIN: [f64; 4] = [64.0, 48.0, 24.0, 52.0];
+pub const MARGIN: [f64; 4] = [64.0, 48.0, 24.0, 56.0];
+
+/// Least width and height as a share of the longer side: room for title and legend.
+const LEAST: Point = [0.5, 0.25];
 
 /// From mm to pixels.
 pub struct Frame {
@@ -34,7 +37,7 @@ impl Frame {
         }
         let longest = (max[0] - min[0]).max(max[1] - min[1]);
         for i in 0..2 {
-            let short = longest.max(1.0) * 0.25 - (max[i] - min[i]);
+            let short = longest.max(1.0) * LEAST[i] - (max[i] - min[i]);
             let border = (longest * 0.04).max(short / 2.0).max(0.04);
             min[i] -= border;
             max[i] += border;
