@@ -1,5 +1,5 @@
-//! LinuxCNC's stand-alone interpreter beside ours: the same moves and dwells for 300 generated programs.
-//! Skips itself, with a note, where `rs274` (Debian: linuxcnc-uspace) is not installed.
+//! LinuxCNC's stand-alone interpreter beside ours: the same moves, dwells and modes in the same order for 300 generated programs.
+//! Not compared: G94, which forgets the feed there and keeps it here. Skips itself, with a note, where `rs274` (Debian: linuxcnc-uspace) is not installed.
 
 mod common;
 
@@ -7,7 +7,6 @@ use common::{Random, program};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use takt_base::SourceId;
-use takt_motion::canon::Canon;
 use takt_motion::ngc::{Interpreter, Options};
 use takt_motion::print;
 
@@ -30,7 +29,7 @@ impl Drop for Folder {
     }
 }
 
-/// Rows of `rs274 -g`, and whether it ended well. Home, parameters and tools are this folder's.
+/// Rows of `rs274 -g` between its prologue and its epilogue, and whether it ended well. Home, parameters and tools are this folder's.
 fn oracle(text: &str, folder: &Path) -> (Vec<String>, bool) {
     std::fs::write(folder.join("p.ngc"), text).unwrap();
     std::fs::remove_file(folder.join("p.var")).ok();
@@ -38,7 +37,8 @@ fn oracle(text: &str, folder: &Path) -> (Vec<String>, bool) {
     command.args(["-g", "-v", "p.var", "p.ngc", "p.txt"]).current_dir(folder).env("HOME", folder);
     let output = command.output().unwrap();
     let rows = std::fs::read_to_string(folder.join("p.txt")).unwrap();
-    (rows.lines().filter_map(call).filter(|row| compared(row)).collect(), output.status.success())
+    let calls = rows.lines().filter_map(call).skip_while(|row| row != "ON_RESET()").take_while(|row| !row.starts_with("SET_G5X"));
+    (calls.filter(|row| compared(row)).collect(), output.status.success())
 }
 
 /// The call of a row such as `   12 N.....  STRAIGHT_FEED(...)`.
@@ -48,31 +48,50 @@ fn call(row: &str) -> Option<String> {
     (number.parse::<u32>().is_ok() && label.starts_with('N')).then(|| words.next().unwrap_or("").trim().to_owned())
 }
 
+/// Commands that both write with the same arguments.
+const COMPARED: [&str; 13] = [
+    "STRAIGHT_TRAVERSE",
+    "STRAIGHT_FEED",
+    "ARC_FEED",
+    "DWELL",
+    "SET_FEED_RATE",
+    "SELECT_PLANE",
+    "USE_LENGTH_UNITS",
+    "SET_MOTION_CONTROL_MODE",
+    "FLOOD_ON",
+    "FLOOD_OFF",
+    "MIST_ON",
+    "MIST_OFF",
+    "MESSAGE",
+];
+
+const MOVES: [&str; 3] = ["STRAIGHT_TRAVERSE", "STRAIGHT_FEED", "ARC_FEED"];
+
 fn compared(row: &str) -> bool {
-    ["STRAIGHT_TRAVERSE(", "STRAIGHT_FEED(", "ARC_FEED(", "DWELL("].iter().any(|name| row.starts_with(name))
+    row.split_once('(').is_some_and(|(name, _)| COMPARED.contains(&name))
 }
 
+/// Our rows behind the prologue and before what M2 brings back.
 fn ours(text: &str) -> (Vec<String>, bool) {
     let (mut rows, mut right) = (Vec::new(), true);
+    let last = text.lines().count() as u32;
     for step in Interpreter::new(SourceId(0), text, Options::default()) {
-        match step.map(|s| s.command) {
-            Ok(command @ (Canon::StraightTraverse(_) | Canon::StraightFeed(_) | Canon::ArcFeed(_) | Canon::Dwell(_))) => {
-                rows.push(print::command(&command));
-            }
+        match step {
+            Ok(step) if step.block > 0 && step.line < last => rows.push(print::command(&step.command)),
             Ok(_) => {}
             Err(_) => right = false,
         }
     }
+    rows.retain(|row| compared(row));
     (rows, right)
 }
 
 fn same(a: &str, b: &str) -> bool {
-    let split = |row: &str| -> Option<(String, Vec<f64>)> {
-        let (name, args) = row.strip_suffix(')')?.split_once('(')?;
-        Some((name.to_owned(), args.split(',').map(|v| v.trim().parse().ok()).collect::<Option<_>>()?))
-    };
-    let (Some((name_a, a)), Some((name_b, b))) = (split(a), split(b)) else { return false };
-    name_a == name_b && a.len() == b.len() && a.iter().zip(&b).all(|(a, b)| (a - b).abs() <= TOLERANCE)
+    let arguments = |row: &str| row.split(['(', ')', ',']).map(|v| v.trim().to_owned()).collect::<Vec<_>>();
+    let (a, b) = (arguments(a), arguments(b));
+    let near = |a: &f64, b: &f64| (a - b).abs() <= TOLERANCE;
+    let equal = |(a, b): (&String, &String)| a == b || a.parse().is_ok_and(|a| b.parse().is_ok_and(|b| near(&a, &b)));
+    a.len() == b.len() && a.iter().zip(&b).all(equal)
 }
 
 fn installed() -> bool {
@@ -89,12 +108,15 @@ fn compare(text: &str, folder: &Folder) -> usize {
     for (i, (a, b)) in ours.iter().zip(&theirs).enumerate() {
         assert!(same(a, b), "row {i}: ours {a}, LinuxCNC's {b}\n{text}");
     }
-    assert_eq!((ours.len(), our_end), (theirs.len(), their_end), "{text}");
+    // LinuxCNC carries out a wrong block up to the error, we do nothing of it.
+    let moves = |rows: &[String]| rows.iter().filter(|r| MOVES.iter().any(|m| r.starts_with(m))).count();
+    assert_eq!((moves(&ours), our_end), (moves(&theirs), their_end), "{text}");
+    assert!(ours.len() == theirs.len() || (!our_end && ours.len() < theirs.len()), "{text}");
     ours.len()
 }
 
 #[test]
-fn moves_and_dwells_are_those_of_linuxcnc() {
+fn commands_are_those_of_linuxcnc() {
     if !installed() {
         return;
     }
@@ -104,14 +126,17 @@ fn moves_and_dwells_are_those_of_linuxcnc() {
     println!("{rows} rows of 300 programs agree");
 }
 
-/// What is wrong for LinuxCNC is wrong here, and the rows before the error are the same.
+/// What is wrong for LinuxCNC is wrong here, and the rows before the error are the same; so is the order within a block.
 #[test]
-fn both_refuse_the_same_programs() {
+fn both_agree_on_single_blocks() {
     if !installed() {
         return;
     }
     let folder = Folder::new("errors");
     let blocks = [
+        "M0 G1 X1 Y2 G91 G64 P0.125 G20 G18 M49 M8 S800 F300 (MSG, message)",
+        "M9 G4 P1 G19 G1 X1 F5",
+        "G20 G91.1 G17 G91 G3 X2 I1 P2 Z1 F10 M7",
         "G1 X1",
         "X1",
         "G80 X1",

@@ -26,7 +26,7 @@ impl Random {
 
 /// A valid program of `blocks` blocks: moves, arcs of all forms and planes, modes, dwells.
 pub fn program(random: &mut Random, blocks: usize) -> String {
-    let mut writer = Writer { plane: 0, text: String::from("G21 G17 G90 G91.1 G94\nF600\nG0 X1 Y2 Z3\n") };
+    let mut writer = Writer { plane: 0, text: String::from("G21 G17 G90 G91.1\nF600\nG0 X1 Y2 Z3\n") };
     for n in 0..blocks {
         if random.below(4) == 0 {
             writer.text += &format!("N{} ", n * 10);
