@@ -117,6 +117,8 @@ codes! {
     N0011 CommentNotClosed "a comment is not closed";
     N0012 OutsideLimits "the move leaves the travel of an axis";
     N0013 NotOnGrid "the position is not a whole number of basic length units";
+    N0014 NotInThisVersion "this part of the g-code language is not supported by this version";
+    N0015 UnstableArc "a small change of this radius or end point moves the arc far" Warning;
 
     // --- C project and image files ---
     C0001 BadProjectFile "the project file can't be used";
