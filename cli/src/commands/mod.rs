@@ -5,6 +5,7 @@ pub mod build;
 pub mod check;
 pub mod explain;
 pub mod gcode;
+mod gcode_plan;
 pub mod new;
 pub mod run;
 pub mod sim;

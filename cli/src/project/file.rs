@@ -73,9 +73,7 @@ pub struct ChannelKeys {
     pub mode: Option<String>,
     pub blu_mm: Option<f64>,
     pub handshake: Option<bool>,
-    pub units: Option<String>,
-    pub distance: Option<String>,
-    pub arc_centres: Option<String>,
+    pub modes: Option<String>,
     pub require_homed: Option<bool>,
     pub aux_timeout: Option<String>,
 }

@@ -113,6 +113,12 @@ pub fn read(path: &Path) -> Result<Vec<u8>, Problem> {
     std::fs::read(path).map_err(|e| unreadable(path, &e))
 }
 
+/// Writes a file whole.
+pub fn write(path: &Path, bytes: &[u8]) -> Result<(), Problem> {
+    let failed = |e: std::io::Error| Problem::File(Code::FileError, format!("can't write {}: {e}", path.display()));
+    std::fs::write(path, bytes).map_err(failed)
+}
+
 fn unreadable(path: &Path, e: &std::io::Error) -> Problem {
     Problem::File(Code::FileError, format!("can't read {}: {e}", path.display()))
 }

@@ -5,7 +5,8 @@ mod load;
 mod machine;
 
 pub use file::ProjectFile;
-pub use load::{Problem, Project, load};
+pub use load::{Problem, Project, load, parse_keys, read, write};
+pub use machine::{machine, time};
 
 /// All keys of the project file, for `takt explain takt.toml`.
 pub const REFERENCE: &str = include_str!("reference.md");
