@@ -1,14 +1,21 @@
 //! The contract between a compiled program and its runtime. Inert data and traits; no I/O.
 
+mod crc;
+mod decode;
 pub mod elementary;
+pub mod encode;
+#[cfg(test)]
+mod encode_tests;
 pub mod engine;
 pub mod image;
 pub mod memory;
 pub mod natives;
 pub mod traps;
 pub mod types;
+pub mod validate;
 
 pub use elementary::{Elementary, Generic};
+pub use encode::{ImageError, decode, encode};
 pub use engine::Engine;
 pub use image::Image;
 pub use memory::{MemoryMap, header};
