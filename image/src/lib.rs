@@ -1,5 +1,6 @@
 //! The contract between a compiled program and its runtime. Inert data and traits; no I/O.
 
+pub mod access;
 mod crc;
 mod decode;
 pub mod elementary;
@@ -8,12 +9,17 @@ pub mod encode;
 mod encode_tests;
 pub mod engine;
 pub mod image;
+pub mod literal;
+pub mod literal_time;
 pub mod memory;
 pub mod natives;
+pub mod path;
 pub mod traps;
 pub mod types;
 pub mod validate;
+pub mod value;
 
+pub use access::AccessError;
 pub use elementary::{Elementary, Generic};
 pub use encode::{ImageError, decode, encode};
 pub use engine::Engine;
@@ -22,3 +28,4 @@ pub use memory::{MemoryMap, header};
 pub use natives::{BindError, Cyclic, Host, NativeCall, NativeImport, NativeKind, Natives, Scalar};
 pub use traps::{Fault, Trap};
 pub use types::{Type, TypeId, TypeTable};
+pub use value::{Patch, Value, VarType};
