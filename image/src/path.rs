@@ -157,34 +157,46 @@ fn bit(image: &Image, v: Variable, offset: u32, id: TypeId, name: &str) -> Found
 }
 
 fn address(image: &Image, path: &str) -> Found {
+    let text = path.to_ascii_uppercase();
     let wrong = || AccessError::path(format!("`{path}` is not a direct address")).help("write %IX0.1, %QB3, %QW3, %MD4 or %ML1");
-    let text = path[1..].to_ascii_uppercase();
-    let (area, rest) = match text.chars().next() {
-        Some('I') => (image.memory.inputs, &text[1..]),
-        Some('Q') => (image.memory.outputs, &text[1..]),
-        Some('M') => (image.memory.markers, &text[1..]),
-        _ => return Err(wrong()),
+    let a = parse_address(&text).ok_or_else(wrong)?;
+    let area = match a.area {
+        'I' => image.memory.inputs,
+        'Q' => image.memory.outputs,
+        _ => image.memory.markers,
     };
-    let sized = [("B", E::Byte), ("W", E::Word), ("D", E::Dword), ("L", E::Lword)].into_iter().find(|(p, _)| rest.starts_with(p));
-    let number = |n: &str| n.parse::<u32>().ok().filter(|_| n.bytes().all(|b| b.is_ascii_digit())).ok_or_else(wrong);
-    let (first, size, place, e): (u32, u32, fn(u32, u8) -> Place, E) = match sized {
-        Some((_, e)) => (number(&rest[1..])?.saturating_mul(e.bytes()), e.bytes(), |o, _| Place::Byte(o), e),
-        None => (number(rest.trim_start_matches('X').split_once('.').ok_or_else(wrong)?.0)?, 1, Place::Bit, E::Bool),
-    };
-    let bit = if sized.is_none() { rest.split_once('.').map_or(Err(wrong()), |(_, b)| number(b))? } else { 0 };
-    if bit > 7 {
+    if a.bit > 7 {
         return Err(wrong().help("the bits of a byte are 0 to 7"));
     }
-    if first.checked_add(size).is_none_or(|end| end > area.size) {
+    if a.byte.checked_add(a.ty.bytes()).is_none_or(|end| end > area.size) {
         let e = AccessError::path(format!("`{path}` lies outside of the process image"));
-        return Err(e.help(format!("%{} has {} bytes in this program", &text[..1], area.size)));
+        return Err(e.help(format!("%{} has {} bytes in this program", a.area, area.size)));
     }
-    Ok(Variable {
-        name: format!("%{text}"),
-        place: place(area.start + first, bit as u8),
-        ty: VarType::Direct(e),
-        constant: false,
-    })
+    let offset = area.start + a.byte;
+    let place = if a.ty == E::Bool { Place::Bit(offset, a.bit as u8) } else { Place::Byte(offset) };
+    Ok(Variable { name: text, place, ty: VarType::Direct(a.ty), constant: false })
+}
+
+/// The parts of a direct address.
+struct Address {
+    area: char,
+    ty: E,
+    byte: u32,
+    bit: u32,
+}
+
+/// Takes a direct address in capitals apart; `None` if it is not one.
+fn parse_address(text: &str) -> Option<Address> {
+    let rest = text.strip_prefix('%')?;
+    let area = rest.chars().next().filter(|c| matches!(c, 'I' | 'Q' | 'M'))?;
+    let rest = &rest[1..];
+    let number = |n: &str| n.parse::<u32>().ok().filter(|_| n.bytes().all(|b| b.is_ascii_digit()));
+    let sizes = [("B", E::Byte), ("W", E::Word), ("D", E::Dword), ("L", E::Lword)];
+    if let Some((n, ty)) = sizes.iter().find_map(|&(p, ty)| Some((rest.strip_prefix(p)?, ty))) {
+        return Some(Address { area, ty, byte: number(n)?.saturating_mul(ty.bytes()), bit: 0 });
+    }
+    let (byte, bit) = rest.strip_prefix('X').unwrap_or(rest).split_once('.')?;
+    Some(Address { area, ty: E::Bool, byte: number(byte)?, bit: number(bit)? })
 }
 
 #[cfg(test)]
