@@ -2,7 +2,7 @@
 //!
 //! Programs end: every loop has a bound. They may fault (division by zero, index): then both engines must fault alike.
 
-use crate::random::Random;
+use crate::rng::Rng;
 use std::fmt::Write;
 use takt_image::Elementary as E;
 
@@ -46,7 +46,7 @@ impl Default for Shape {
 /// The text of a program of this seed; the instance is called `main`.
 pub fn program(seed: u64, shape: Shape) -> String {
     let mut g = Generator {
-        random: Random::new(seed),
+        random: Rng::new(seed),
         out: String::new(),
         vars: Vec::new(),
         functions: Vec::new(),
@@ -82,7 +82,7 @@ struct Callable {
 }
 
 struct Generator {
-    random: Random,
+    random: Rng,
     out: String,
     vars: Vec<Var>,
     functions: Vec<Callable>,
@@ -98,7 +98,7 @@ impl Generator {
     }
 
     fn scalar(&mut self) -> E {
-        *self.random.pick(SCALARS)
+        self.random.pick(SCALARS)
     }
 
     fn types(&mut self) {
@@ -236,7 +236,7 @@ impl Generator {
 
     fn assign(&mut self) {
         let places: Vec<Var> = self.vars.iter().filter(|v| v.writable).cloned().collect();
-        let place = self.random.pick(&places).clone();
+        let place = places[self.random.below(places.len())].clone();
         let value = self.expr(place.ty, 3);
         self.line(format!("{} := {value};", place.text));
     }
@@ -285,7 +285,7 @@ impl Generator {
             return self.assign();
         }
         let counter = format!("c{}", self.loops);
-        let range = *self.random.pick(&["1 TO 4", "4 TO 1 BY -2", "250 TO 255", "0 TO 6 BY 3", "5 TO 1"]);
+        let range = self.random.pick(&["1 TO 4", "4 TO 1 BY -2", "250 TO 255", "0 TO 6 BY 3", "5 TO 1"]);
         let range = if self.loops == 2 { "250 TO 255" } else { range };
         self.line(format!("FOR {counter} := {range} DO"));
         self.loops += 1;
@@ -336,7 +336,7 @@ impl Generator {
         let (output, ty) = self.blocks[i].outputs[0].clone();
         let targets: Vec<Var> = self.vars.iter().filter(|v| v.ty == ty && v.writable).cloned().collect();
         if !targets.is_empty() && self.random.one_in(2) {
-            args.push(format!("{output} => {}", self.random.pick(&targets).text));
+            args.push(format!("{output} => {}", targets[self.random.below(targets.len())].text));
         }
         self.line(format!("b{i}({});", args.join(", ")));
     }
@@ -386,7 +386,7 @@ impl Generator {
         match ty {
             E::Bool => if self.random.one_in(2) { "TRUE" } else { "FALSE" }.into(),
             E::Real | E::Lreal => {
-                let value = *self.random.pick(&["0.0", "1.5", "-2.25", "1.0E10", "-3.5E-3", "1000000.5", "0.1"]);
+                let value = self.random.pick(&["0.0", "1.5", "-2.25", "1.0E10", "-3.5E-3", "1000000.5", "0.1"]);
                 if let Some(rest) = value.strip_prefix('-') {
                     format!("{}#-{rest}", ty.name())
                 } else {
@@ -416,7 +416,7 @@ impl Generator {
         if depth == 0 || self.random.one_in(4) {
             return match readable.is_empty() || self.random.one_in(4) {
                 true => self.literal(ty),
-                false => self.random.pick(&readable).clone(),
+                false => readable[self.random.below(readable.len())].clone(),
             };
         }
         if self.random.one_in(8) && self.in_main() {
@@ -452,7 +452,7 @@ impl Generator {
         if self.random.one_in(2) {
             let ty = self.scalar();
             let (a, b) = (self.expr(ty, depth - 1), self.expr(ty, depth - 1));
-            let op = *self.random.pick(&["=", "<>", "<", ">", "<=", ">="]);
+            let op = self.random.pick(&["=", "<>", "<", ">", "<=", ">="]);
             return format!("(({a}) {op} ({b}))");
         }
         let (a, b) = (self.expr(E::Bool, depth - 1), self.expr(E::Bool, depth - 1));
@@ -532,7 +532,7 @@ impl Generator {
             from != to && (numbers || bits || mixed)
         };
         let sources: Vec<E> = SCALARS.iter().copied().filter(|f| allowed(*f)).collect();
-        let from = *self.random.pick(&sources);
+        let from = self.random.pick(&sources);
         format!("{}_TO_{}({})", from.name(), to.name(), self.expr(from, depth - 1))
     }
 }
