@@ -6,6 +6,8 @@ mod duration;
 mod host;
 mod json;
 mod project;
+mod session;
+mod watch;
 
 use clap::{Parser, Subcommand};
 

@@ -12,7 +12,7 @@ const ARROWS: &[(&str, &[&str], &[&str])] = &[
     ("compiler", &["base", "image", "stdlib"], &["logos", "cranelift-codegen", "cranelift-frontend"]),
     ("motion", &["base", "image"], &["nom", "libm", "nalgebra"]),
     ("runtime", &["base", "image"], &["libc"]),
-    ("cli", &["base", "image", "stdlib", "compiler", "motion", "runtime"], &["clap", "serde", "serde_json", "toml", "libc"]),
+    ("cli", &["base", "image", "stdlib", "compiler", "motion", "runtime"], &["clap", "ctrlc", "serde", "serde_json", "toml"]),
 ];
 
 /// Words that have no place on the cyclic side.

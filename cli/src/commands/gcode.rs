@@ -48,13 +48,7 @@ pub struct Args {
 }
 
 pub fn run(args: Args) -> Status {
-    match execute(&args) {
-        Ok(status) => status,
-        Err(problem) => {
-            problem.print();
-            Status::Wrong
-        }
-    }
+    super::finish(execute(&args))
 }
 
 /// A part program that was read.

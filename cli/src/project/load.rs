@@ -28,6 +28,15 @@ pub enum Problem {
 }
 
 impl Problem {
+    /// A path or value that does not work.
+    pub fn access(e: &takt_image::access::AccessError) -> Self {
+        let help = e.help.as_ref().map(|h| format!("\n  = help: {h}")).unwrap_or_default();
+        Problem::File(e.code, format!("{}{help}", e.message))
+    }
+    /// The thread of the programs could not be started, or ended by itself.
+    pub fn thread(e: &std::io::Error) -> Self {
+        Problem::File(Code::FileError, e.to_string())
+    }
     /// Shows the problem on stderr.
     pub fn print(&self) {
         match self {
@@ -129,7 +138,7 @@ fn toml_diag(message: &str, span: Span) -> Diag {
     let first_line = message.lines().next().unwrap_or("");
     match quoted.split_first() {
         Some((key, known)) if message.starts_with("unknown field") => {
-            let near = known.iter().min_by_key(|k| distance(key, k));
+            let near = takt_base::nearest(key, known.iter().copied());
             let help = near.map_or("`takt explain takt.toml` lists all keys".into(), |k| {
                 format!("did you mean `{k}`? `takt explain takt.toml` lists all keys")
             });
@@ -137,20 +146,6 @@ fn toml_diag(message: &str, span: Span) -> Diag {
         }
         _ => Diag::new(Code::BadProjectFile, span, first_line).help("`takt explain takt.toml` lists all keys"),
     }
-}
-
-/// Number of single-character edits between two words.
-fn distance(a: &str, b: &str) -> usize {
-    let b: Vec<char> = b.chars().collect();
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, ca) in a.chars().enumerate() {
-        let mut diagonal = std::mem::replace(&mut row[0], i + 1);
-        for (j, cb) in b.iter().enumerate() {
-            let next = (diagonal + usize::from(ca != *cb)).min(row[j] + 1).min(row[j + 1] + 1);
-            diagonal = std::mem::replace(&mut row[j + 1], next);
-        }
-    }
-    row[b.len()]
 }
 
 #[cfg(test)]
