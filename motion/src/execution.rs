@@ -46,7 +46,6 @@ pub enum Reached {
 /// A planned element being executed.
 #[derive(Clone, Copy, Debug)]
 struct Current {
-    mark: Mark,
     segment: Segment,
     /// Path time in seconds; valid while following.
     tau: f64,
@@ -78,6 +77,9 @@ pub struct PathExecutor {
     history_next: usize,
     /// Length executed, feed moves alone.
     pub feed_mm: f64,
+    /// Blocks of the part program that were begun.
+    pub blocks: u32,
+    last: Mark,
 }
 
 impl PathExecutor {
@@ -96,6 +98,8 @@ impl PathExecutor {
             history: [None; HISTORY],
             history_next: 0,
             feed_mm: 0.0,
+            blocks: 0,
+            last: Mark::default(),
         }
     }
 
@@ -111,6 +115,17 @@ impl PathExecutor {
         self.primed = false;
         self.position = position;
         self.history = [None; HISTORY];
+        self.feed_mm = 0.0;
+        self.blocks = 0;
+        self.last = Mark::default();
+    }
+
+    /// Drops what is left of a program; the place and the figures stay.
+    pub fn halt(&mut self) {
+        self.queue.clear();
+        self.queued_mm = 0.0;
+        self.current = None;
+        self.dwell_s = 0.0;
     }
 
     /// Takes what the look-ahead has released for `run`.
@@ -150,9 +165,9 @@ impl PathExecutor {
         self.current.is_none() || self.pace == Pace::Follow(0.0)
     }
 
-    /// Place in the part program.
-    pub fn mark(&self) -> Option<Mark> {
-        self.current.as_ref().map(|c| c.mark)
+    /// Place in the part program: what was begun last.
+    pub fn mark(&self) -> Mark {
+        self.last
     }
 
     /// Rest of the current element in mm.
@@ -243,13 +258,14 @@ impl PathExecutor {
         }
         self.primed = true;
         let Some(step) = self.queue.front().copied() else { return Next::Nothing };
+        if demand.hold && self.speed_in(&step) == 0.0 {
+            return Next::Nothing;
+        }
+        self.count(step.mark);
         match step.action {
             Action::Move(segment) => {
-                if demand.hold && segment.profile.v_in == 0.0 {
-                    return Next::Nothing;
-                }
                 self.queued_mm -= segment.path.length;
-                self.start(step.mark, segment);
+                self.start(segment);
             }
             Action::Dwell(seconds) => self.dwell_s = seconds,
             Action::FeedOverride(on) => self.feed_override = on,
@@ -262,8 +278,25 @@ impl PathExecutor {
         Next::Started
     }
 
-    fn start(&mut self, mark: Mark, segment: Segment) {
-        self.current = Some(Current { mark, segment, tau: 0.0, s: 0.0 });
+    /// Speed at which the path enters a step. What is not a move goes along with the moves round it.
+    fn speed_in(&self, step: &Planned) -> f64 {
+        match (&step.action, self.pace) {
+            (Action::Move(segment), _) => segment.profile.v_in,
+            (action, Pace::Ramp(w)) if !action.is_stop() => w,
+            (action, Pace::Follow(r)) if !action.is_stop() => r,
+            _ => 0.0,
+        }
+    }
+
+    fn count(&mut self, mark: Mark) {
+        if mark.block != self.last.block && mark.block != 0 {
+            self.blocks += 1;
+        }
+        self.last = mark;
+    }
+
+    fn start(&mut self, segment: Segment) {
+        self.current = Some(Current { segment, tau: 0.0, s: 0.0 });
         if segment.profile.v_in == 0.0 {
             // At rest the path time may jump to any rate.
             self.pace = Pace::Ramp(0.0);

@@ -148,7 +148,7 @@ fn sample(planned: Vec<Planned>, config: &PlanConfig, report: &mut PlanReport) -
             return Ok(());
         }
     }
-    let mark = executor.mark().unwrap_or_default();
+    let mark = executor.mark();
     let text = format!("the program takes more than {} samples", config.samples_max);
     Err(PlanError { mark, error: RunError { code: takt_base::Code::ParameterOutOfRange, text } })
 }

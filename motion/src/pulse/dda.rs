@@ -198,7 +198,7 @@ mod tests {
     use super::*;
 
     fn run(kind: PulseKind, preload: Preload) -> Vec<Pulse> {
-        let mut dda = Dda::new(&PulseMove { kind, frequency: 1.0 }, preload);
+        let mut dda = Dda::new(&PulseMove { kind, frequency: 1.0, feed_mm: 0.0 }, preload);
         std::iter::from_fn(|| dda.step()).take(10_000_000).collect()
     }
 

@@ -16,6 +16,8 @@ pub struct PulseMove {
     pub kind: PulseKind,
     /// Iterations a second: F / (60 * BLU) (PC-10).
     pub frequency: f64,
+    /// Length of the path that counts as feed; 0 for positioning.
+    pub feed_mm: f64,
 }
 
 /// Which routine makes the pulses.
@@ -69,7 +71,7 @@ pub fn pulse_move(path: &Path, rapid: bool, speed_mm_s: f64, blu_mm: f64) -> Res
             PulseKind::Arc(PulseArc { axes: [i, j], start, end, ccw: arc.sweep > 0.0, turns })
         }
     };
-    Ok(PulseMove { kind, frequency: speed_mm_s / blu_mm })
+    Ok(PulseMove { kind, frequency: speed_mm_s / blu_mm, feed_mm: if rapid { 0.0 } else { path.length } })
 }
 
 /// Millimetres as a whole number of BLU; nothing is rounded away silently.

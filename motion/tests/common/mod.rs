@@ -1,6 +1,8 @@
 //! Programs for the tests: canonical commands made by hand, so that the motion tests need no interpreter.
 #![allow(dead_code)] // Each test file uses its own part.
 
+pub mod rig;
+
 use takt_motion::canon::{Arc, Canon, Position, ProgramEnd, Step};
 
 /// The 27 blocks of the contour of PC-T1: G, X, Y, I, J, incremental.
