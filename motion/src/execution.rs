@@ -34,6 +34,7 @@ impl Default for Demand {
 
 /// How far a call of [`PathExecutor::advance`] got.
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[allow(clippy::large_enum_variant)] // it lives for one call, on the stack
 pub enum Reached {
     /// The time is used up.
     Time,
@@ -408,6 +409,7 @@ fn settled(c: &Current, w: f64, goal: f64) -> Option<f64> {
     (at_rest || (goal * plan - w).abs() <= 1e-12 * plan).then_some(goal)
 }
 
+#[allow(clippy::large_enum_variant)] // as above
 enum Next {
     Started,
     Nothing,

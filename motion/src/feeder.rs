@@ -37,6 +37,7 @@ pub const NAME_BYTES: usize = 256;
 
 /// From the channel.
 #[derive(Clone, Copy, Debug)]
+#[allow(clippy::large_enum_variant)] // it passes a ring: no heap
 pub enum Command {
     /// Read a file.
     Load {
@@ -155,14 +156,14 @@ impl Feeder {
                 self.program = Some(program);
                 Event::Loaded { request, lines }
             }
-            Err(note) => Event::LoadFailed { request, note },
+            Err(note) => Event::LoadFailed { request, note: *note },
         };
         // There is room: `pump` takes no command otherwise.
         let _ = self.events.push(event);
     }
 
-    fn read(&self, name: String, start: &Point, files: &Files, reader: &Reader) -> Result<(Program, u32), ErrorNote> {
-        let text = files(&name).map_err(|why| ErrorNote::new(Code::ProgramFile, 0, 0, &format!("{name}: {why}")))?;
+    fn read(&self, name: String, start: &Point, files: &Files, reader: &Reader) -> Result<(Program, u32), Box<ErrorNote>> {
+        let text = files(&name).map_err(|why| Box::new(ErrorNote::new(Code::ProgramFile, 0, 0, &format!("{name}: {why}"))))?;
         let program = Program { name, text: text.into() };
         let lines = program.text.lines().count() as u32;
         if self.config.check_on_load {
@@ -172,14 +173,14 @@ impl Feeder {
     }
 
     /// The first error of the program, whatever the position of the machine. Travel is checked when it runs.
-    fn check(&self, program: &Program, start: &Point, reader: &Reader) -> Result<(), ErrorNote> {
+    fn check(&self, program: &Program, start: &Point, reader: &Reader) -> Result<(), Box<ErrorNote>> {
         let (sources, steps) = open(program, start, reader, &self.config.modes);
         let work = Work { exists: self.config.work.exists, ..Work::default() };
         let mut run = RunReader::new(work, *start);
         for step in steps.take(CHECKED_STEPS) {
-            let step = step.map_err(|diag| note_of_diag(&diag, &sources))?;
+            let step = step.map_err(|diag| Box::new(note_of_diag(&diag, &sources)))?;
             let mark = mark_of(&step);
-            run.read(&step, &mut |_, _| {}).map_err(|e| note_of_error(&e, mark))?;
+            run.read(&step, &mut |_, _| {}).map_err(|e| Box::new(note_of_error(&e, mark)))?;
         }
         Ok(())
     }
@@ -279,7 +280,9 @@ fn put(planner: &mut Planner, config: &FeederConfig, mark: Mark, item: Item) -> 
 /// PC-13: what does not fit the tick is refused, never slowed down.
 fn pulses(m: &Move, config: &FeederConfig, blu_mm: f64, batch_max: u32) -> Result<crate::pulse::PulseMove, RunError> {
     let slowest = (0..6).filter(|&i| m.path.end[i] != m.path.start[i]).map(|i| config.axes.v[i]).fold(f64::INFINITY, f64::min);
-    let speed = if m.rapid { m.feed.min(slowest) } else { m.feed };
+    // Positioning has no feed of its own: it is as fast as axes and tick allow.
+    let fastest = slowest.min(f64::from(batch_max) * blu_mm / config.period_s);
+    let speed = if m.rapid { m.feed.min(fastest) } else { m.feed };
     let pulses = pulse_move(&m.path, m.rapid, speed, blu_mm).map_err(|code| RunError {
         code,
         text: match code {
@@ -287,7 +290,7 @@ fn pulses(m: &Move, config: &FeederConfig, blu_mm: f64, batch_max: u32) -> Resul
             _ => code.title().to_owned(),
         },
     })?;
-    if pulses.frequency * config.period_s > f64::from(batch_max) {
+    if pulses.frequency * config.period_s > f64::from(batch_max) * (1.0 + 1e-9) {
         let text = format!("{} pulses a second are more than {batch_max} a tick", pulses.frequency.round());
         return Err(RunError { code: Code::ParameterOutOfRange, text });
     }

@@ -181,7 +181,7 @@ fn sweep(difference: f64, turns: i32) -> f64 {
     let sense = f64::from(turns.signum());
     let mut part = difference * sense;
     part -= TAU * (part / TAU).floor();
-    if part < 1e-9 || part > TAU - 1e-9 {
+    if !(1e-9..=TAU - 1e-9).contains(&part) {
         part = TAU;
     }
     sense * (part + TAU * (f64::from(turns.unsigned_abs()) - 1.0))

@@ -184,7 +184,7 @@ impl RunReader {
     fn go(&mut self, mark: Mark, path: Path, rapid: bool, emit: Emit) -> Result<(), RunError> {
         self.check(&path)?;
         let feed = if rapid { self.traverse_mm_s } else { self.feed_mm_s };
-        if !(feed > 0.0) && path.length > 0.0 {
+        if (feed.is_nan() || feed <= 0.0) && path.length > 0.0 {
             return Err(RunError { code: Code::NoFeed, text: Code::NoFeed.title().to_owned() });
         }
         self.flush_aux(emit);
@@ -322,7 +322,7 @@ fn check_radius(start: &Point, end: &Point, i: usize, j: usize, centre: [f64; 2]
     let radius = |p: &Point| libm::hypot(p[i] - centre[0], p[j] - centre[1]);
     let (r0, r1) = (radius(start), radius(end));
     let moved = (end[i] - start[i]).abs() + (end[j] - start[j]).abs() > 1e-9;
-    if (r0 - r1).abs() > 0.05 + 0.005 * r0 || (rotation == 0 && moved) || !(r0 > 0.0) {
+    if (r0 - r1).abs() > 0.05 + 0.005 * r0 || (rotation == 0 && moved) || r0.is_nan() || r0 <= 0.0 {
         let text = format!("the arc starts at radius {r0:.4} and ends at radius {r1:.4} mm");
         return Err(RunError { code: Code::RadiusMismatch, text });
     }

@@ -190,6 +190,7 @@ impl Axis {
     }
 
     fn set_tick(&mut self) {
+        let from_channel = self.followed.is_some();
         let (position, velocity) = match (self.followed.take(), &mut self.generator) {
             (Some(p), _) => (p, (p - self.set.position) / self.dt),
             (None, Some(g)) => g.advance(self.dt),
@@ -199,7 +200,9 @@ impl Axis {
         let acceleration = (velocity - self.set.velocity) / self.dt;
         // The loop follows one period behind: where the axis shall be when this period ends.
         let target = SetPoint { position: self.set.position, velocity: mean, acceleration };
-        self.set = SetPoint { position, velocity, acceleration };
+        // The last position from a channel is where the path rests.
+        let rests = from_channel && !self.joined;
+        self.set = SetPoint { position, velocity: if rests { 0.0 } else { velocity }, acceleration };
         let u = if !self.stage.is_on() { 0.0 } else { self.servo.step(&self.gains, &target, self.actual, self.dt) };
         if self.open_loop && self.stage.is_on() {
             self.plant.position = position - self.shift;
@@ -298,7 +301,6 @@ impl Axis {
     /// A channel gives the axis back; it stands still.
     pub fn leave(&mut self) {
         self.joined = false;
-        self.followed = None;
         if self.state == AxisState::SynchronizedMotion {
             self.event(AxisEvent::Done);
         }

@@ -72,9 +72,7 @@ impl PulseOutput {
         }
         while let Some(pulse) = self.executor.next_pulse() {
             self.driver.pulse(&pulse);
-            for i in 0..3 {
-                self.counts[i] += i64::from(pulse.step[i]) * if pulse.up[i] { 1 } else { -1 };
-            }
+            pulse.count(&mut self.counts);
         }
         let ended = !self.executor.is_busy();
         if ended {

@@ -73,7 +73,7 @@ impl Planner {
 
     /// Takes a move.
     pub fn push_move(&mut self, mark: Mark, m: Move) {
-        if !(m.path.length > 0.0) {
+        if m.path.length <= 0.0 {
             return;
         }
         let limits = path_limits(&m.path, &self.axes, m.feed, 1.0);

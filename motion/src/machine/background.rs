@@ -32,7 +32,7 @@ impl Pump {
     /// Does what can be done now; false if there was nothing.
     pub fn pump(&mut self) -> bool {
         let (files, reader) = (&self.files, &self.reader);
-        self.feeders.iter_mut().fold(false, |busy, f| f.pump(files, reader) || busy)
+        self.feeders.iter_mut().map(|f| f.pump(files, reader)).fold(false, |any, busy| any | busy)
     }
 }
 

@@ -13,6 +13,15 @@ pub struct Pulse {
     pub up: [bool; 3],
 }
 
+impl Pulse {
+    /// Counts the steps of this iteration.
+    pub fn count(&self, at: &mut [i64; 3]) {
+        for (at, (step, up)) in at.iter_mut().zip(self.step.iter().zip(self.up)) {
+            *at += i64::from(*step) * if up { 1 } else { -1 };
+        }
+    }
+}
+
 /// Start value of the accumulators (PC-22).
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum Preload {
@@ -204,11 +213,7 @@ mod tests {
 
     fn counts(pulses: &[Pulse]) -> [i64; 3] {
         let mut at = [0; 3];
-        for p in pulses {
-            for i in 0..3 {
-                at[i] += i64::from(p.step[i]) * if p.up[i] { 1 } else { -1 };
-            }
-        }
+        pulses.iter().for_each(|p| p.count(&mut at));
         at
     }
 
@@ -243,15 +248,13 @@ mod tests {
 
     fn radial_error(arc: PulseArc, preload: Preload) -> (f64, usize, bool) {
         let pulses = run(PulseKind::Arc(arc), preload);
-        let (mut at, mut worst) = (arc.start, 0.0f64);
+        let (mut at, mut worst) = ([arc.start[0], arc.start[1], 0], 0.0f64);
         let r = libm::hypot(at[0] as f64, at[1] as f64);
         for p in &pulses {
-            for i in 0..2 {
-                at[i] += i64::from(p.step[i]) * if p.up[i] { 1 } else { -1 };
-            }
+            p.count(&mut at);
             worst = worst.max((libm::hypot(at[0] as f64, at[1] as f64) - r).abs());
         }
-        (worst, pulses.len(), at == arc.end)
+        (worst, pulses.len(), at[..2] == arc.end)
     }
 
     /// PC-22: R = 1..800, both senses, all quadrants: radial error, end point, number of ticks.

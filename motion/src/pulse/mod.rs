@@ -49,10 +49,8 @@ pub struct PulseArc {
 /// Turns a path into pulses.
 pub fn pulse_move(path: &Path, rapid: bool, speed_mm_s: f64, blu_mm: f64) -> Result<PulseMove, Code> {
     let grid = |mm: f64| blu(mm, blu_mm);
-    let mut d = [0i64; 3];
-    for i in 0..3 {
-        d[i] = grid(path.end[i])?.saturating_sub(grid(path.start[i])?);
-    }
+    let step = |i: usize| Ok(grid(path.end[i])?.saturating_sub(grid(path.start[i])?));
+    let d = [step(0)?, step(1)?, step(2)?];
     if (3..path.end.len()).any(|i| path.end[i] != path.start[i]) {
         return Err(Code::UnknownReference);
     }
@@ -77,7 +75,11 @@ pub fn pulse_move(path: &Path, rapid: bool, speed_mm_s: f64, blu_mm: f64) -> Res
 /// Millimetres as a whole number of BLU; nothing is rounded away silently.
 pub fn blu(mm: f64, blu_mm: f64) -> Result<i64, Code> {
     let n = (mm / blu_mm).round();
-    if !(n.abs() < 1e15) || (n * blu_mm - mm).abs() > 1e-6 * blu_mm.max(1.0) { Err(Code::NotOnGrid) } else { Ok(n as i64) }
+    if n.is_nan() || n.abs() >= 1e15 || (n * blu_mm - mm).abs() > 1e-6 * blu_mm.max(1.0) {
+        Err(Code::NotOnGrid)
+    } else {
+        Ok(n as i64)
+    }
 }
 
 #[cfg(test)]
