@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{Random, program};
+use common::programs::{Random, program};
 use takt_base::{Severity, SourceId, Sources};
 use takt_motion::canon::{Canon, Position, Step};
 use takt_motion::ngc::{Interpreter, Options, Style, Travel, check};

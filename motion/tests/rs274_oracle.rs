@@ -3,7 +3,7 @@
 
 mod common;
 
-use common::{Random, program};
+use common::programs::{Random, program};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use takt_base::SourceId;

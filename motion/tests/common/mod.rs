@@ -1,108 +1,174 @@
-//! A seeded generator of part programs.
-#![allow(dead_code)] // each test uses a part
+//! Programs for the tests: canonical commands made by hand, so that the motion tests need no interpreter.
+#![allow(dead_code)] // Each test file uses its own part.
 
-/// Numbers from a seed (splitmix64).
+pub mod programs;
+pub mod rig;
+
+use takt_motion::canon::{Arc, Canon, Position, ProgramEnd, Step};
+
+/// The 27 blocks of the contour of PC-T1: G, X, Y, I, J, incremental.
+pub const PLATE: [(u8, f64, f64, f64, f64); 27] = [
+    (0, 20., 30., 0., 0.),
+    (1, 0., 60., 0., 0.),
+    (1, 52., 0., 0., 0.),
+    (3, 16., 16., 0., 16.),
+    (3, -16., 16., -16., 0.),
+    (1, -52., 0., 0., 0.),
+    (1, 0., 72., 0., 0.),
+    (2, 40., 40., 40., 0.),
+    (1, 52., 0., 0., 0.),
+    (1, 0., -68., 0., 0.),
+    (3, 16., -16., 16., 0.),
+    (3, 16., 16., 0., 16.),
+    (1, 0., 68., 0., 0.),
+    (1, 52., 0., 0., 0.),
+    (2, 40., -40., 0., -40.),
+    (1, 0., -72., 0., 0.),
+    (1, -52., 0., 0., 0.),
+    (3, -16., -16., 0., -16.),
+    (3, 16., -16., 16., 0.),
+    (1, 52., 0., 0., 0.),
+    (1, 0., -60., 0., 0.),
+    (1, -92., 0., 0., 0.),
+    (1, 0., 68., 0., 0.),
+    (3, -16., 16., -16., 0.),
+    (3, -16., -16., 0., -16.),
+    (1, 0., -68., 0., 0.),
+    (1, -92., 0., 0., 0.),
+];
+
+/// Builds a program step by step.
+pub struct Program {
+    pub steps: Vec<Step>,
+    pub at: Position,
+}
+
+impl Default for Program {
+    fn default() -> Self {
+        Self::from(0.0, 0.0)
+    }
+}
+
+impl Program {
+    pub fn from(x: f64, y: f64) -> Self {
+        Self { steps: Vec::new(), at: Position { x, y, ..Position::default() } }
+    }
+
+    /// A block of one command.
+    pub fn block(&mut self, command: Canon) -> &mut Self {
+        let block = self.steps.last().map_or(0, |s| s.block) + 1;
+        self.steps.push(Step { block, line: block, n: None, command });
+        self
+    }
+
+    /// Another command in the same block.
+    pub fn also(&mut self, command: Canon) -> &mut Self {
+        let last = self.steps.last().expect("a block");
+        let step = Step { command, ..last.clone() };
+        self.steps.push(step);
+        self
+    }
+
+    pub fn feed(&mut self, mm_min: f64) -> &mut Self {
+        self.block(Canon::SetFeedRate(mm_min))
+    }
+
+    pub fn rapid(&mut self, x: f64, y: f64) -> &mut Self {
+        (self.at.x, self.at.y) = (x, y);
+        self.block(Canon::StraightTraverse(self.at))
+    }
+
+    pub fn line(&mut self, x: f64, y: f64) -> &mut Self {
+        (self.at.x, self.at.y) = (x, y);
+        self.block(Canon::StraightFeed(self.at))
+    }
+
+    /// Arc in XY round an absolute centre.
+    pub fn arc(&mut self, x: f64, y: f64, cx: f64, cy: f64, rotation: i32) -> &mut Self {
+        (self.at.x, self.at.y) = (x, y);
+        let (first_end, second_end, first_axis, second_axis) = (x, y, cx, cy);
+        let (axis_end_point, a, b, c) = (self.at.z, self.at.a, self.at.b, self.at.c);
+        self.block(Canon::ArcFeed(Arc { first_end, second_end, first_axis, second_axis, rotation, axis_end_point, a, b, c }))
+    }
+
+    pub fn end(&mut self) -> Vec<Step> {
+        self.block(Canon::ProgramEnd(ProgramEnd::EndOfFile));
+        std::mem::take(&mut self.steps)
+    }
+}
+
+/// The contour of PC-T1 at F60000, from (x, y).
+pub fn plate(x: f64, y: f64) -> Vec<Step> {
+    let mut p = Program::from(x, y);
+    p.feed(60000.0);
+    for (g, dx, dy, i, j) in PLATE {
+        let (x, y) = (p.at.x, p.at.y);
+        match g {
+            0 => p.rapid(x + dx, y + dy),
+            1 => p.line(x + dx, y + dy),
+            2 => p.arc(x + dx, y + dy, x + i, y + j, -1),
+            _ => p.arc(x + dx, y + dy, x + i, y + j, 1),
+        };
+    }
+    p.end()
+}
+
+/// Small generator for test programs: the same numbers on every machine.
 pub struct Random(pub u64);
 
 impl Random {
-    pub fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        z ^ (z >> 31)
+    pub fn unit(&mut self) -> f64 {
+        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (self.0 >> 11) as f64 / (1u64 << 53) as f64
     }
-    /// 0..n
+    pub fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.unit()
+    }
     pub fn below(&mut self, n: usize) -> usize {
-        (self.next() % n.max(1) as u64) as usize
-    }
-    pub fn pick<'a, T>(&mut self, items: &'a [T]) -> &'a T {
-        &items[self.below(items.len())]
-    }
-    /// lo..=hi in steps of 1/8: exact in decimals.
-    pub fn eighths(&mut self, lo: i64, hi: i64) -> f64 {
-        (lo * 8 + self.below(((hi - lo) * 8 + 1) as usize) as i64) as f64 / 8.0
+        (self.unit() * n as f64) as usize
     }
 }
 
-/// A valid program of `blocks` blocks: moves, arcs of all forms and planes, modes, dwells.
-pub fn program(random: &mut Random, blocks: usize) -> String {
-    let mut writer = Writer { plane: 0, text: String::from("G21 G17 G90 G91.1\nF600\nG0 X1 Y2 Z3\n") };
-    for n in 0..blocks {
-        if random.below(4) == 0 {
-            writer.text += &format!("N{} ", n * 10);
+/// A program of lines and arcs: corners, tangent joints, slight bends, rapids, full circles, short and long elements.
+pub fn random_program(seed: u64) -> Vec<Step> {
+    let mut r = Random(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) ^ 0xABCD);
+    let mut p = Program::default();
+    p.feed(r.between(100.0, 90_000.0));
+    let mut heading = r.between(-3.0, 3.0);
+    let scale = [0.02, 0.5, 5.0, 60.0][r.below(4)];
+    for _ in 0..3 + r.below(12) {
+        match r.below(8) {
+            0 => {
+                heading = r.between(-3.0, 3.0);
+            }
+            1 => heading += r.between(-0.05, 0.05),
+            2 => {
+                p.feed(r.between(100.0, 90_000.0));
+            }
+            _ => {}
         }
-        writer.block(random);
-        writer.text.push('\n');
-    }
-    writer.text + "M2\n"
-}
-
-struct Writer {
-    plane: usize,
-    text: String,
-}
-
-/// Axis and offset letters of G17, G18, G19: first, second, third.
-const PLANES: [([char; 3], [char; 2]); 3] =
-    [(['X', 'Y', 'Z'], ['I', 'J']), (['Z', 'X', 'Y'], ['K', 'I']), (['Y', 'Z', 'X'], ['J', 'K'])];
-
-impl Writer {
-    fn block(&mut self, random: &mut Random) {
-        match random.below(12) {
-            0..=2 => self.straight(random, "G0"),
-            3..=5 => self.straight(random, "G1"),
-            6 | 7 => self.full_or_part_circle(random),
-            8 => self.arc_by_radius(random),
-            9 => self.text += &format!("G4 P{}", random.eighths(1, 3)),
-            10 => {
-                let (number, plane) = *random.pick(&[(17, 0), (18, 1), (19, 2)]);
-                self.plane = plane;
-                self.text += &format!("G{number}");
+        let (sin, cos) = libm::sincos(heading);
+        let (x, y) = (p.at.x, p.at.y);
+        let size = scale * r.between(0.05, 1.0);
+        match r.below(5) {
+            0 => {
+                p.rapid(x + size * cos, y + size * sin);
+            }
+            1 | 2 => {
+                // Tangent arc: the centre is beside the start.
+                let sense = if r.below(2) == 0 { 1.0 } else { -1.0 };
+                let (cx, cy) = (x - sense * size * sin, y + sense * size * cos);
+                let sweep = if r.below(8) == 0 { std::f64::consts::TAU } else { r.between(0.05, 5.0) };
+                let angle = libm::atan2(y - cy, x - cx) + sense * sweep;
+                let (s2, c2) = libm::sincos(angle);
+                let end = if sweep > 6.0 { (x, y) } else { (cx + size * c2, cy + size * s2) };
+                p.arc(end.0, end.1, cx, cy, if sense > 0.0 { 1 } else { -1 });
+                heading += sense * sweep;
             }
             _ => {
-                let modes =
-                    ["G90", "G91", "G20", "G21", "G61", "G61.1", "G64 P0.125", "F900", "S500 M3", "M5", "M8", "M9", "G54"];
-                let mode: &&str = random.pick(&modes);
-                self.text += mode;
+                p.line(x + size * cos, y + size * sin);
             }
         }
     }
-
-    fn straight(&mut self, random: &mut Random, code: &str) {
-        self.text += code;
-        for axis in ['X', 'Y', 'Z', 'A', 'B', 'C'] {
-            if random.below(3) == 0 {
-                self.text += &format!(" {axis}{}", random.eighths(-20, 20));
-            }
-        }
-    }
-
-    /// An arc in G91 with an end on the circle: a multiple of a quarter, possibly with turns and a helix.
-    fn full_or_part_circle(&mut self, random: &mut Random) {
-        let ([first, second, third], [i, j]) = PLANES[self.plane];
-        let (u, v) = (random.eighths(1, 9), random.eighths(-9, 9));
-        let (du, dv) = [(0.0, 0.0), (u + v, v - u), (2.0 * u, 2.0 * v), (u - v, v + u)][random.below(4)];
-        let code = random.pick(&["G2", "G3"]);
-        self.text += &format!("G91 {code} {first}{du} {second}{dv} {i}{u} {j}{v}");
-        if random.below(3) == 0 {
-            self.text += &format!(" {third}{}", random.eighths(-5, 5));
-        }
-        if random.below(3) == 0 {
-            self.text += &format!(" P{}", 1 + random.below(4));
-        }
-        if random.below(4) == 0 {
-            self.text += &format!(" A{}", random.eighths(-90, 90));
-        }
-    }
-
-    fn arc_by_radius(&mut self, random: &mut Random) {
-        let ([first, second, third], _) = PLANES[self.plane];
-        let (du, dv) = (random.eighths(1, 6), random.eighths(-6, 6));
-        let r = random.eighths(10, 20) * if random.below(2) == 0 { 1.0 } else { -1.0 };
-        let code = random.pick(&["G2", "G3"]);
-        self.text += &format!("G91 {code} {first}{du} {second}{dv} R{r}");
-        if random.below(3) == 0 {
-            self.text += &format!(" {third}{}", random.eighths(-5, 5));
-        }
-    }
+    p.end()
 }
