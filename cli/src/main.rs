@@ -5,7 +5,9 @@ mod diagnostics;
 mod duration;
 mod host;
 mod json;
+mod progress;
 mod project;
+mod report;
 mod session;
 mod watch;
 

@@ -46,7 +46,7 @@ pub fn compile(project: &Project) -> Result<(Compilation, Sources), Problem> {
     let input = driver::Project {
         name: project.name.clone(),
         default_interval: project::time("task.interval", project.keys.task.interval.as_deref(), driver::DEFAULT_INTERVAL)?,
-        library: vec![("machine.st".to_owned(), takt_motion::machine::declarations(&machine))],
+        library: vec![("machine.st".to_owned(), Machine::declarations(&machine))],
         sources: project.sources.clone(),
     };
     let compilation = driver::compile(input, &mut sources);
@@ -96,7 +96,7 @@ impl Session {
             Some((_, bytes)) => Ok(String::from_utf8_lossy(bytes).into_owned()),
             None => std::fs::read(root.join(name)).map(|b| String::from_utf8_lossy(&b).into_owned()).map_err(|e| e.to_string()),
         };
-        Rc::new(RefCell::new(Machine::new(self.machine.clone(), Box::new(files), background)))
+        Rc::new(RefCell::new(Machine::new(&self.machine, Box::new(files), background)))
     }
 
     /// A resource on this machine. Call it on the thread that will run it.

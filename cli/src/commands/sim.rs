@@ -81,7 +81,7 @@ fn simulate(args: &Args, session: &Session) -> Result<Status, Problem> {
     let mut resource = with_stimulus(resource, stimulus(args, session)?);
     drive(args, session, &watch, &mut resource)?;
     if let Some(path) = &args.trace {
-        report::write_trace(path, machine.borrow().trace())?;
+        report::write_trace(path, machine.borrow().trace(), &session.machine)?;
     }
     let fault = resource.fault_reports().into_iter().next();
     if args.format == "json" {
