@@ -19,19 +19,19 @@ fn files(folder: &str) -> Vec<(String, String)> {
     files
 }
 
-/// Text of a block in the library, from its name to its end.
-fn source_of(block: &str) -> &'static str {
-    let head = format!("FUNCTION_BLOCK {block}\n");
+/// Text of a unit in the library, from its name to its end.
+fn source_of(kind: &str, name: &str) -> &'static str {
+    let (head, end) = (format!("\n{kind} {name}\n"), format!("END_{kind}\n"));
     let text = SOURCES.iter().find_map(|(_, text)| Some(text.split_once(&head)?.1));
-    text.and_then(|t| Some(t.split_once("END_FUNCTION_BLOCK")?.0)).unwrap_or_else(|| panic!("no block {block}"))
+    text.and_then(|t| Some(t.split_once(&end)?.0)).unwrap_or_else(|| panic!("no {kind} {name}"))
 }
 
-#[test]
-fn every_table_fits_its_block() {
+/// Each table of the folder names a unit of this kind and pins that it has; each such unit has a table.
+fn check_tables(folder: &str, kind: &str) {
     let mut seen = BTreeSet::new();
-    for (file, text) in files("blocks") {
+    for (file, text) in files(folder) {
         for table in cycle_table::parse(&text).unwrap_or_else(|e| panic!("{file}: {e:?}")) {
-            let source = source_of(&table.block);
+            let source = source_of(kind, &table.block);
             let constants = table.constants.iter().map(|(name, _)| name);
             for pin in constants.chain(table.inputs.iter().chain(&table.outputs).map(|row| &row.name)) {
                 assert!(source.contains(&format!("    {pin} : ")), "{file}:{}: {} has no {pin}", table.line, table.block);
@@ -40,10 +40,20 @@ fn every_table_fits_its_block() {
             seen.insert(table.block);
         }
     }
-    let blocks = SOURCES.iter().flat_map(|(_, text)| text.lines()).filter_map(|line| line.strip_prefix("FUNCTION_BLOCK "));
-    for block in blocks {
-        assert!(seen.contains(block), "no table for {block}");
+    let head = format!("{kind} ");
+    for unit in SOURCES.iter().flat_map(|(_, text)| text.lines()).filter_map(|line| line.strip_prefix(&head)) {
+        assert!(seen.contains(unit), "no table for {unit}");
     }
+}
+
+#[test]
+fn every_table_fits_its_block() {
+    check_tables("blocks", "FUNCTION_BLOCK");
+}
+
+#[test]
+fn every_table_fits_its_procedure() {
+    check_tables("procedures", "FUNCTION");
 }
 
 /// Words before an opening parenthesis are functions of the library.
