@@ -130,8 +130,7 @@ fn s40_c_override() {
         cycles += 1;
         assert!(cycles < 40_000);
     }
-    // The path time runs at half speed: acceleration takes 0.2 s at a quarter of the limit.
-    assert!((cycles - 20_200).abs() <= 6 || (cycles - 20_050).abs() <= 6, "{cycles}");
+    assert!((cycles - 20_050).abs() <= 6, "{cycles}");
     rig.lreal(&over, "Feed", 1.5);
     rig.call(&over);
     assert_eq!(rig.get_u16(&over, "ErrorID"), Code::ParameterOutOfRange.error_id());

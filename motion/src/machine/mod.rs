@@ -10,6 +10,7 @@ pub mod trace;
 
 pub use background::Background;
 pub use config::{AxisConfig, ChannelConfig, ChannelMode, MachineConfig};
+pub use declarations::declarations;
 pub use report::{AxisReport, ChannelError, ChannelReport, MachineReport, PulseReport};
 pub use trace::Trace;
 
