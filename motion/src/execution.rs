@@ -1,9 +1,10 @@
 //! Interpolation: planned elements become positions at the servo period, in closed form.
 //! Runs: cyclic. No allocation; a tick passes at most [`QUEUE`] elements.
-//! Invariant: at full override the path time runs with the real time; hold, resume and override bend it so that the path is kept
-//! and the path acceleration of each element is never exceeded. From: R1-116, R1-165, CM-23, scenario S40.
+//! Invariant: the path speed is never above the planned one. Without hold and override it is the planned one; they cap it, and the
+//! path is kept with at most the path acceleration of each element. From: R1-116, R1-165, CM-23, scenario S40.
 
 use crate::geometry::Point;
+use crate::profile::Phase;
 use crate::segment::{Action, Mark, Planned, Segment};
 use std::collections::VecDeque;
 use takt_base::ring::Rx;
@@ -54,13 +55,13 @@ struct Current {
     s: f64,
 }
 
-/// How path time relates to real time.
+/// How the path speed relates to the planned one.
 #[derive(Clone, Copy, PartialEq, Debug)]
 enum Pace {
-    /// Path time runs at this rate.
-    Follow(f64),
-    /// On the way to another rate, at this path speed in mm/s.
-    Ramp(f64),
+    /// It is the planned one: path time runs with real time.
+    Plan,
+    /// It is this, in mm/s, and below the plan: on the way to a cap, at a cap, or on the way back.
+    Free(f64),
 }
 
 /// The cyclic end of a channel's path.
@@ -92,7 +93,7 @@ impl PathExecutor {
             accel_min: f64::INFINITY,
             current: None,
             dwell_s: 0.0,
-            pace: Pace::Follow(1.0),
+            pace: Pace::Plan,
             feed_override: true,
             primed: false,
             position,
@@ -111,7 +112,7 @@ impl PathExecutor {
         self.accel_min = f64::INFINITY;
         self.current = None;
         self.dwell_s = 0.0;
-        self.pace = Pace::Follow(1.0);
+        self.pace = Pace::Plan;
         self.feed_override = true;
         self.primed = false;
         self.position = position;
@@ -156,14 +157,14 @@ impl PathExecutor {
     pub fn speed(&self) -> f64 {
         match (self.pace, &self.current) {
             (_, None) => 0.0,
-            (Pace::Follow(r), Some(c)) => r * c.segment.profile.v(c.tau),
-            (Pace::Ramp(w), Some(_)) => w,
+            (Pace::Plan, Some(c)) => c.segment.profile.v(c.tau),
+            (Pace::Free(w), Some(_)) => w,
         }
     }
 
     /// True if the path stands still and would not move on this demand.
     pub fn is_held(&self) -> bool {
-        self.current.is_none() || self.pace == Pace::Follow(0.0)
+        self.current.is_none() || self.pace == Pace::Free(0.0)
     }
 
     /// Place in the part program: what was begun last.
@@ -199,8 +200,8 @@ impl PathExecutor {
             if self.dwell_s > 0.0 {
                 left = self.dwell(left, demand.hold);
             } else if self.current.is_some() {
-                let goal = self.goal(demand, starved);
-                left = self.step(left, goal);
+                let cap = self.cap(demand, starved);
+                left = self.step(left, cap);
             } else {
                 match self.next(demand) {
                     Next::Started => {}
@@ -232,8 +233,9 @@ impl PathExecutor {
             && self.distance_to_go() + self.queued_mm < v * v / (2.0 * self.accel_min) + v * dt
     }
 
-    fn goal(&self, demand: &Demand, starved: bool) -> f64 {
-        let rapid = self.current.as_ref().is_some_and(|c| c.segment.rapid);
+    /// Highest path speed that is wanted now: the override is a share of the programmed speed.
+    fn cap(&self, demand: &Demand, starved: bool) -> f64 {
+        let (rapid, feed) = self.current.as_ref().map_or((false, 0.0), |c| (c.segment.rapid, c.segment.feed));
         let share = if rapid {
             demand.rapid
         } else if self.feed_override {
@@ -241,7 +243,12 @@ impl PathExecutor {
         } else {
             1.0
         };
-        if demand.hold || starved { 0.0 } else { share.clamp(0.0, 1.0) }
+        match share.clamp(0.0, 1.0) {
+            _ if demand.hold || starved => 0.0,
+            // Without an override nothing is capped, not even by rounding.
+            1.0 => f64::INFINITY,
+            share => share * feed,
+        }
     }
 
     fn dwell(&mut self, left: f64, hold: bool) -> f64 {
@@ -283,10 +290,16 @@ impl PathExecutor {
     fn speed_in(&self, step: &Planned) -> f64 {
         match (&step.action, self.pace) {
             (Action::Move(segment), _) => segment.profile.v_in,
-            (action, Pace::Ramp(w)) if !action.is_stop() => w,
-            (action, Pace::Follow(r)) if !action.is_stop() => r,
-            _ => 0.0,
+            (action, _) if action.is_stop() => 0.0,
+            (_, Pace::Free(w)) => w,
+            (_, Pace::Plan) => self.history_v_out(),
         }
+    }
+
+    /// Planned speed at the end of the element before.
+    fn history_v_out(&self) -> f64 {
+        let last = (self.history_next + HISTORY - 1) % HISTORY;
+        self.history[last].as_ref().map_or(0.0, |s| s.profile.v_out)
     }
 
     fn count(&mut self, mark: Mark) {
@@ -298,11 +311,11 @@ impl PathExecutor {
 
     fn start(&mut self, segment: Segment) {
         self.current = Some(Current { segment, tau: 0.0, s: 0.0 });
-        if segment.profile.v_in == 0.0 {
-            // At rest the path time may jump to any rate.
-            self.pace = Pace::Ramp(0.0);
-        } else if let Pace::Ramp(w) = &mut self.pace {
+        if let Pace::Free(w) = &mut self.pace {
             *w = w.min(segment.profile.v_in);
+        }
+        if segment.profile.v_in == 0.0 {
+            self.pace = Pace::Plan;
         }
     }
 
@@ -317,84 +330,77 @@ impl PathExecutor {
         }
     }
 
-    /// Uses up to `left` seconds on the current element; returns what is left.
-    fn step(&mut self, left: f64, goal: f64) -> f64 {
-        let Some(c) = &mut self.current else { return left };
-        if let Pace::Follow(r) = self.pace
-            && r != goal
-        {
-            self.pace = Pace::Ramp(r * c.segment.profile.v(c.tau));
-        }
-        if let Pace::Ramp(w) = self.pace
-            && let Some(r) = settled(c, w, goal)
-        {
-            c.tau = c.segment.profile.time_at(c.s);
-            self.pace = Pace::Follow(r);
-        }
+    /// Uses up to `left` seconds on the current element, not above `cap` mm/s; returns what is left.
+    fn step(&mut self, left: f64, cap: f64) -> f64 {
         match self.pace {
-            Pace::Follow(r) => self.follow(left, r),
-            Pace::Ramp(w) => self.ramp(left, w, goal),
+            Pace::Plan => self.on_plan(left, cap),
+            Pace::Free(w) => self.off_plan(left, w, cap),
         }
     }
 
-    fn follow(&mut self, left: f64, r: f64) -> f64 {
+    /// Along the plan until it has a speed above the cap. Where it brakes it brakes as hard as a cap could ask for.
+    fn on_plan(&mut self, left: f64, cap: f64) -> f64 {
         let Some(c) = &mut self.current else { return left };
-        if r == 0.0 {
-            return 0.0;
+        let p = &c.segment.profile;
+        let mut time = f64::INFINITY;
+        if p.v_peak > cap && c.tau < p.t_acc + p.t_const {
+            let v = p.v(c.tau);
+            time = if c.tau < p.t_acc && v < cap { (cap - v) / p.a } else { 0.0 };
         }
-        let tau = c.tau + r * left;
-        let over = tau - c.segment.profile.duration();
+        if time < left {
+            let v = p.v(c.tau);
+            c.tau += time;
+            c.s = p.s(c.tau);
+            self.pace = Pace::Free(if time > 0.0 { cap } else { v });
+            return left - time;
+        }
+        let over = c.tau + left - p.duration();
         if over < 0.0 {
-            c.tau = tau;
-            c.s = c.segment.profile.s(tau);
+            c.tau += left;
+            c.s = p.s(c.tau);
             return 0.0;
         }
         self.finish();
-        over / r
+        over
     }
 
-    /// Constant path acceleration until the rate is reached, the phase of the plan ends, the path stands, or time is up.
-    fn ramp(&mut self, left: f64, w: f64, goal: f64) -> f64 {
+    /// Below the plan at path speed `w`, towards the cap with the acceleration of the element, until the plan is met again.
+    fn off_plan(&mut self, left: f64, w: f64, cap: f64) -> f64 {
         let Some(c) = &mut self.current else { return left };
-        let phase = c.segment.profile.phase(c.s);
-        let goal_v2 = goal * goal * phase.v2(c.s);
-        let up = w * w < goal_v2 || (w == 0.0 && goal > 0.0);
-        let a = if up { c.segment.accel } else { -c.segment.accel };
-        let to_end = phase.end - c.s;
-        let mut ds = to_end;
-        let closing = 2.0 * (a - goal * goal * phase.a);
-        if closing != 0.0 {
-            let meet = (goal_v2 - w * w) / closing;
-            if meet > 0.0 && meet < ds {
-                ds = meet;
-            }
-        }
-        if !up {
-            ds = ds.min(-w * w / (2.0 * a));
-        }
-        let w_end = (w * w + 2.0 * a * ds).max(0.0).sqrt();
-        let time = if w + w_end > 0.0 { 2.0 * ds / (w + w_end) } else { 0.0 };
-        if time > left {
-            c.s += left * (w + 0.5 * a * left);
-            self.pace = Pace::Ramp((w + a * left).max(0.0));
+        if w == 0.0 && cap == 0.0 {
             return 0.0;
         }
-        let met = ds < to_end || goal == 0.0 && w_end == 0.0;
-        c.s = if ds < to_end { c.s + ds } else { phase.end };
-        let reached_end = c.s >= c.segment.path.length - END_MM;
-        self.pace = Pace::Ramp(w_end);
-        if reached_end {
+        let phase = c.segment.profile.phase(c.s);
+        let a = if w < cap {
+            c.segment.accel
+        } else if w > cap {
+            -c.segment.accel
+        } else {
+            0.0
+        };
+        if a >= phase.a && w <= cap && meets(w * w, phase.v2(c.s)) {
+            self.back_to_plan();
+            return left;
+        }
+        let ramp = Ramp::new(w, a, cap, c.s, &phase);
+        let time = ramp.time(w);
+        if time > left {
+            c.s += left * (w + 0.5 * a * left);
+            self.pace = Pace::Free((w + a * left).max(0.0));
+            return 0.0;
+        }
+        c.s = if ramp.to_phase_end { phase.end } else { c.s + ramp.length };
+        self.pace = Pace::Free(ramp.v_end);
+        if c.s >= c.segment.path.length - END_MM {
             self.finish();
-        } else if met {
-            self.settle(goal);
         }
         left - time
     }
 
-    fn settle(&mut self, goal: f64) {
+    fn back_to_plan(&mut self) {
         if let Some(c) = &mut self.current {
             c.tau = c.segment.profile.time_at(c.s);
-            self.pace = Pace::Follow(goal);
+            self.pace = Pace::Plan;
         }
     }
 }
@@ -402,11 +408,42 @@ impl PathExecutor {
 /// Length below which the end of an element is reached: rounding of the ramp.
 const END_MM: f64 = 1e-12;
 
-/// The rate, if the ramp has nothing to do: the path stands where the plan stands, or the speed fits already.
-fn settled(c: &Current, w: f64, goal: f64) -> Option<f64> {
-    let plan = c.segment.profile.v_at(c.s);
-    let at_rest = plan == 0.0 && c.s <= 0.0 || (w == 0.0 && goal == 0.0);
-    (at_rest || (goal * plan - w).abs() <= 1e-12 * plan).then_some(goal)
+/// True if the square of a speed is that of the plan, but for rounding.
+fn meets(w2: f64, plan_v2: f64) -> bool {
+    w2 >= plan_v2 * (1.0 - 1e-12)
+}
+
+/// A stretch of constant path acceleration: to the end of the phase, to the plan, to the cap or to rest.
+struct Ramp {
+    length: f64,
+    v_end: f64,
+    to_phase_end: bool,
+}
+
+impl Ramp {
+    fn new(w: f64, a: f64, cap: f64, s: f64, phase: &Phase) -> Self {
+        let mut ramp = Ramp { length: phase.end - s, v_end: 0.0, to_phase_end: true };
+        ramp.v_end = (w * w + 2.0 * a * ramp.length).max(0.0).sqrt();
+        if a > phase.a {
+            let meet = (phase.v2(s) - w * w) / (2.0 * (a - phase.a));
+            ramp.shorten(meet.max(0.0), phase.v2(s + meet.max(0.0)).sqrt());
+        }
+        if a != 0.0 {
+            ramp.shorten((cap * cap - w * w) / (2.0 * a), cap);
+        }
+        ramp
+    }
+
+    fn shorten(&mut self, length: f64, v_end: f64) {
+        if length < self.length {
+            *self = Ramp { length, v_end, to_phase_end: false };
+        }
+    }
+
+    fn time(&self, w: f64) -> f64 {
+        let speeds = w + self.v_end;
+        if speeds > 0.0 { 2.0 * self.length / speeds } else { 0.0 }
+    }
 }
 
 #[allow(clippy::large_enum_variant)] // as above

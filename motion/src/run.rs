@@ -46,6 +46,21 @@ pub struct RunError {
     pub text: String,
 }
 
+impl RunError {
+    /// Which rule.
+    pub fn code(&self) -> Code {
+        self.code
+    }
+}
+
+impl std::fmt::Display for RunError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.text)
+    }
+}
+
+impl std::error::Error for RunError {}
+
 /// The state that canonical commands build on.
 #[derive(Clone, Debug)]
 pub struct RunReader {

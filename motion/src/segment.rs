@@ -26,6 +26,8 @@ pub struct Segment {
     pub profile: Profile,
     /// Path acceleration that all axes can follow everywhere on it, mm/s2.
     pub accel: f64,
+    /// Programmed speed in mm/s, which the plan may not reach; that of a positioning move is its limit.
+    pub feed: f64,
     /// Positioning move: the rapid override counts.
     pub rapid: bool,
 }

@@ -78,6 +78,7 @@ impl Channel {
         self.joined = true;
         self.hold = false;
         self.error = None;
+        self.fault_id = 0;
         self.mark = Default::default();
         self.event(CncEvent::Run);
         self.command = self.history.number();
@@ -137,6 +138,7 @@ impl Channel {
             return Err(Code::ChannelState);
         }
         self.error = None;
+        self.fault_id = 0;
         Ok(())
     }
 
@@ -149,9 +151,15 @@ impl Channel {
         Ok(())
     }
 
-    /// CNC_AuxHandshake.Fault while the channel waits.
-    pub fn aux_fault(&mut self) {
+    /// The PLC program has a CNC_AuxHandshake: codes can wait for it. Without one they are only noted.
+    pub fn listen(&mut self) {
+        self.listened = true;
+    }
+
+    /// CNC_AuxHandshake.Fault while the channel waits; `id` is shown by CNC_ReadError.
+    pub fn aux_fault(&mut self, id: u16) {
         if self.state == CncState::AuxWait {
+            self.fault_id = id;
             self.fail(ErrorNote::new(Code::AuxFault, self.mark.line, 1, Code::AuxFault.title()));
         }
     }

@@ -74,6 +74,9 @@ pub struct Channel {
     error: Option<ErrorNote>,
     stop_code: Option<u16>,
     part_count: u32,
+    listened: bool,
+    /// FaultID of CNC_AuxHandshake.
+    fault_id: u16,
 }
 
 impl Channel {
@@ -101,6 +104,8 @@ impl Channel {
             error: None,
             stop_code: None,
             part_count: 0,
+            listened: false,
+            fault_id: 0,
             config,
         }
     }
@@ -124,6 +129,14 @@ impl Channel {
     /// The last error, with line and column.
     pub fn error(&self) -> Option<&ErrorNote> {
         self.error.as_ref()
+    }
+    /// ErrorID of the last error; 0: none.
+    pub fn error_id(&self) -> u16 {
+        match &self.error {
+            Some(_) if self.fault_id != 0 => self.fault_id,
+            Some(note) => run_code(note.code).error_id(),
+            None => 0,
+        }
     }
     /// The path and its place.
     pub fn executor(&self) -> &PathExecutor {
@@ -279,7 +292,7 @@ impl Channel {
         self.mark = step.mark;
         match &step.action {
             Action::Pulse(m) => self.pulses.as_mut().is_some_and(|p| p.start(m)),
-            Action::Aux(codes) if !codes.wait => {
+            Action::Aux(codes) if !codes.wait || !self.listened => {
                 self.aux.note(*codes);
                 true
             }
@@ -290,7 +303,7 @@ impl Channel {
                 self.event(CncEvent::ProgramStop);
                 false
             }
-            Action::End { m } if *m != 0 && self.config.handshake => {
+            Action::End { m } if *m != 0 && self.config.handshake && self.listened => {
                 let codes = AuxCodes { m: [*m, 0, 0, 0], m_count: 1, wait: true, ..AuxCodes::default() };
                 self.wait_for(codes, Wait::End)
             }
@@ -394,6 +407,6 @@ impl Channel {
 }
 
 /// ErrorID of CNC_Run for an error: that of a part program is F0601 whatever its own code is.
-pub(crate) fn run_code(code: Code) -> Code {
+fn run_code(code: Code) -> Code {
     if code.error_id() == 0 { Code::ProgramError } else { code }
 }

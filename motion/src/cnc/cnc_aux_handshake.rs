@@ -42,7 +42,7 @@ fn call(core: &mut Core, f: &mut Frame) {
     {
         let channel = &mut core.channels[i];
         if f.bool(P::Fault) {
-            channel.aux_fault();
+            channel.aux_fault(f.u16(P::FaultID));
         }
         channel.aux.call(f.bool(P::Fin), f.u16(P::PreFinM));
         codes(channel, f);

@@ -1,7 +1,6 @@
 //! CNC_ReadError: the last error of a channel, with its place.
 //! Runs: cyclic.
 
-use crate::channel::run_code;
 use crate::natives::{Core, Frame, rules};
 use crate::{block, enable_pins};
 
@@ -24,7 +23,7 @@ fn call(core: &mut Core, f: &mut Frame) {
     let target = rules::channel(core, f.reference(P::Cnc));
     let valid = rules::enable(f, &enable_pins!(P, Valid), target.map(|_| ()));
     let note = target.ok().filter(|_| valid).and_then(|i| core.channels[i].error());
-    let code = note.map_or(0, |n| run_code(n.code).error_id());
+    let code = target.ok().filter(|_| valid).map_or(0, |i| core.channels[i].error_id());
     f.set_u16(P::ErrorCode, code);
     f.set_u32(P::Line, note.map_or(0, |n| n.line));
     f.set_u32(P::Column, note.map_or(0, |n| n.column));

@@ -182,8 +182,9 @@ impl Planner {
                 let least_v2 = v_in * v_in - 2.0 * a * length;
                 let v_out = if least_v2 > v_out * v_out + 1e-9 * v_in * v_in { least_v2.sqrt() } else { v_out };
                 let profile = trapezoid(length, v_in, v_out, p.limits.v, a, a);
+                let feed = if p.m.rapid { p.limits.v } else { p.m.feed };
                 self.v_released = v_out;
-                self.emit(p.mark, Action::Move(Segment { path: p.m.path, profile, accel: a, rapid: p.m.rapid }));
+                self.emit(p.mark, Action::Move(Segment { path: p.m.path, profile, accel: a, feed, rapid: p.m.rapid }));
                 self.release_notes();
             }
             None => {}

@@ -119,7 +119,7 @@ pub struct ChannelConfig {
     pub axes: Vec<String>,
     /// How it drives them.
     pub mode: ChannelMode,
-    /// M, S and T codes wait for CNC_AuxHandshake.
+    /// M, S and T codes wait for CNC_AuxHandshake, if the PLC program has one.
     pub handshake: bool,
     /// Longest wait for it; 0: for ever.
     pub aux_timeout_s: f64,

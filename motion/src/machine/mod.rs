@@ -10,6 +10,7 @@ pub mod trace;
 
 pub use background::Background;
 pub use config::{AxisConfig, ChannelConfig, ChannelMode, MachineConfig};
+pub use declarations::declarations;
 pub use report::{AxisReport, ChannelError, ChannelReport, MachineReport, PulseReport};
 pub use trace::Trace;
 
@@ -151,6 +152,9 @@ impl Cyclic for Machine {
 impl Natives for Machine {
     fn bind(&mut self, import: &NativeImport, types: &TypeTable) -> Result<u32, BindError> {
         let bound = bind::bind(import, types)?;
+        if bound.block.name == crate::cnc::cnc_aux_handshake::BLOCK.name {
+            self.core.channels.iter_mut().for_each(Channel::listen);
+        }
         self.bound.push(bound);
         Ok(self.bound.len() as u32 - 1)
     }

@@ -137,7 +137,13 @@ impl Circle {
         let [x, y] = arc.start.map(|c| c as f64);
         let parts = arc.turns.saturating_mul(4).saturating_add(6);
         let mut circle = Self { arc, radius: libm::hypot(x, y), at: arc.start, goal: arc.start, q: [0.0; 2], parts, last: false };
-        circle.next_part(preload);
+        if circle.radius < 0.5 {
+            // Centre and start fall on one grid point: what is left is the way to the end.
+            circle.last = true;
+            circle.goal = arc.end;
+        } else {
+            circle.next_part(preload);
+        }
         circle
     }
 
