@@ -1,9 +1,20 @@
 //! The IEC 61131-3 standard library: a catalogue of functions, function blocks in ST, and natives where ST can't say it.
 
+pub mod calendar;
 pub mod catalog;
 pub mod lookup;
+pub mod natives;
 
 pub use lookup::{ConversionType, Found, lookup};
+pub use natives::{Library, native_conversion, native_signature};
 
-/// The function blocks as ST text: file name and contents. The compiler parses them before the user's files.
-pub const SOURCES: &[(&str, &str)] = &[];
+macro_rules! sources {
+    ($($file:literal)*) => {
+        /// The function blocks as ST text: file name and contents. The compiler parses them before the user's files.
+        pub const SOURCES: &[(&str, &str)] = &[$(($file, include_str!(concat!("../st/", $file)))),*];
+    };
+}
+
+sources! {
+    "bistables.st" "edges.st" "ctu.st" "ctd.st" "ctud.st" "ton.st" "tof.st" "tp.st" "rtc.st" "sema.st"
+}

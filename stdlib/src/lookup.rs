@@ -1,7 +1,10 @@
 //! From a name in a program to a standard function: overloaded, typed (`ADD_INT`) and conversion (`INT_TO_REAL`, `TO_REAL`) names.
+//! Names are taken apart, not listed. From: library reference §1, §2.1, §2.6.
 
-use crate::catalog::Function;
-use takt_image::Elementary;
+use crate::catalog::{Function, Pattern, functions};
+use std::collections::HashMap;
+use std::sync::LazyLock;
+use takt_image::{Elementary, Generic};
 
 /// What a name stands for.
 #[derive(Clone, Copy, Debug)]
@@ -15,7 +18,7 @@ pub enum Found {
     },
     /// `INT_TO_REAL`, `TO_REAL` (`from` is `None`), `TRUNC_INT` and `REAL_TRUNC_INT` (`truncate`).
     Conversion {
-        /// Source; `None`: the argument's type.
+        /// Source; `None`: the argument's type. The caller then asks [`converts`] or [`truncates`].
         from: Option<ConversionType>,
         /// Target.
         to: ConversionType,
@@ -33,7 +36,139 @@ pub enum ConversionType {
     WString,
 }
 
+impl ConversionType {
+    /// All ends.
+    pub fn all() -> impl Iterator<Item = ConversionType> {
+        Elementary::ALL.iter().map(|&e| Self::Elementary(e)).chain([Self::String, Self::WString])
+    }
+    /// `INT`, `STRING`.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Elementary(e) => e.name(),
+            Self::String => "STRING",
+            Self::WString => "WSTRING",
+        }
+    }
+    /// From the standard's name or its long form, in any case.
+    pub fn from_name(name: &str) -> Option<Self> {
+        if name.eq_ignore_ascii_case("STRING") {
+            return Some(Self::String);
+        }
+        if name.eq_ignore_ascii_case("WSTRING") {
+            return Some(Self::WString);
+        }
+        Elementary::from_name(name).map(Self::Elementary)
+    }
+    /// STRING or WSTRING.
+    pub const fn is_string(self) -> bool {
+        matches!(self, Self::String | Self::WString)
+    }
+}
+
+/// Overloaded names.
+static BY_NAME: LazyLock<HashMap<&'static str, &'static Function>> =
+    LazyLock::new(|| functions().map(|function| (function.name, function)).collect());
+
 /// Finds a standard function; case does not matter. Conversions that the standard does not have are `None`.
-pub fn lookup(_name: &str) -> Option<Found> {
+pub fn lookup(name: &str) -> Option<Found> {
+    let name = canonical(name)?;
+    if let Some(function) = BY_NAME.get(name.as_str()) {
+        return Some(Found::Function { function, fixed: None });
+    }
+    conversion(&name).or_else(|| typed(&name))
+}
+
+/// Longest name that is looked at.
+const NAME_MAX: usize = 64;
+
+/// Upper case, with the short names of types.
+fn canonical(name: &str) -> Option<String> {
+    if name.len() > NAME_MAX || !name.is_ascii() {
+        return None;
+    }
+    Some(name.to_ascii_uppercase().replace("DATE_AND_TIME", "DT").replace("TIME_OF_DAY", "TOD"))
+}
+
+/// `SIN_LREAL`: the suffix must be in the group of T. The suffix of TRUNC names its result, which makes it a conversion.
+fn typed(name: &str) -> Option<Found> {
+    let (base, suffix) = name.rsplit_once('_')?;
+    let function = BY_NAME.get(base)?;
+    let ty = Elementary::from_name(suffix)?;
+    if matches!(function.result, Pattern::Own(_)) {
+        return None;
+    }
+    ty.is_in(function.group()?).then_some(Found::Function { function, fixed: Some(ty) })
+}
+
+/// `X_TO_Y`, `TO_Y`, `X_TRUNC_Y`, `TRUNC_Y`.
+fn conversion(name: &str) -> Option<Found> {
+    for (word, truncate) in [("TO_", false), ("TRUNC_", true)] {
+        let Some(at) = name.rfind(word) else { continue };
+        let Some(to) = ConversionType::from_name(&name[at + word.len()..]) else { continue };
+        let from = match &name[..at] {
+            "" => None,
+            source => Some(ConversionType::from_name(source.strip_suffix('_')?)?),
+        };
+        let known = match from {
+            Some(from) if truncate => truncates(from, to),
+            Some(from) => converts(from, to),
+            None => ConversionType::all().any(|from| if truncate { truncates(from, to) } else { converts(from, to) }),
+        };
+        return known.then_some(Found::Conversion { from, to, truncate });
+    }
     None
+}
+
+/// True if `from_TRUNC_to` exists: a real to an integer.
+pub fn truncates(from: ConversionType, to: ConversionType) -> bool {
+    use ConversionType::Elementary as E;
+    matches!((from, to), (E(from), E(to)) if from.is_real() && to.is_int())
+}
+
+/// True if `from_TO_to` exists, identity included.
+pub fn converts(from: ConversionType, to: ConversionType) -> bool {
+    use ConversionType::Elementary as E;
+    match (from, to) {
+        (E(from), E(to)) => from == to || elementary_converts(from, to),
+        _ => true, // to and from strings everything converts
+    }
+}
+
+/// The table of §2.1. Real and bit string convert at equal width only: the bits are the same.
+fn elementary_converts(from: Elementary, to: Elementary) -> bool {
+    let bits = |t: Elementary| t.is_bit() && t != Elementary::Bool;
+    let number = |t: Elementary| t.is_int() || t.is_bit();
+    if from.is_char() || to.is_char() {
+        return char_converts(from, to);
+    }
+    if (from.is_real() && bits(to)) || (bits(from) && to.is_real()) {
+        return from.bytes() == to.bytes();
+    }
+    if from.is_date() && to.is_date() {
+        return date_converts(from, to);
+    }
+    if from.is_duration() && to.is_duration() {
+        return true;
+    }
+    let scalar = |t: Elementary| number(t) || t.is_real();
+    scalar(from) || scalar(to)
+}
+
+/// Characters convert to each other and to bit strings that hold their code; BYTE and WORD back.
+fn char_converts(from: Elementary, to: Elementary) -> bool {
+    use Elementary as E;
+    match (from, to) {
+        (E::Char | E::Wchar, E::Char | E::Wchar) | (E::Byte, E::Char) | (E::Word, E::Wchar) => true,
+        (E::Char | E::Wchar, _) => to.is_in(Generic::AnyBit) && to != E::Bool && to.bytes() >= from.bytes(),
+        _ => false,
+    }
+}
+
+/// Row j: short and long form of the same, an instant to its date or time of day, a date to its midnight.
+fn date_converts(from: Elementary, to: Elementary) -> bool {
+    use Elementary as E;
+    matches!(
+        (from, to),
+        (E::Dt | E::Ldt, _) | (E::Date | E::Ldate, E::Date | E::Ldate | E::Dt | E::Ldt) | (E::Tod | E::Ltod, E::Tod | E::Ltod)
+    )
 }

@@ -1,3 +1,11 @@
-//! The machine-level form of a program. See [`model`].
+//! The machine-level form of a program: its data ([`model`]), its text ([`text`]), its rules ([`verify`]) and its meaning
+//! ([`interpret`]).
 
+pub mod interpret;
 pub mod model;
+pub mod ops;
+pub mod text;
+pub mod verify;
+
+pub use interpret::Interpreter;
+pub use verify::{Problem, verify};
