@@ -2,10 +2,12 @@
 //! ([`interpret`]).
 
 pub mod interpret;
+pub mod lower;
 pub mod model;
 pub mod ops;
 pub mod text;
 pub mod verify;
 
 pub use interpret::Interpreter;
+pub use lower::{Lowered, lower};
 pub use verify::{Problem, verify};

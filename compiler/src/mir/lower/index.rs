@@ -10,13 +10,12 @@ use takt_image::{Scalar, Trap, TypeId};
 impl Unit<'_, '_> {
     /// Address of `array[indices]`. Each subscript traps (Index) outside of its own dimension.
     pub fn element(&mut self, array: Addr, element: TypeId, dims: &[Dim], indices: &[Expr]) -> Addr {
-        let mut stride = self.hir.types.layout(element).size;
-        let strides: Vec<u32> = dims.iter().rev().map(|d| std::mem::replace(&mut stride, stride.saturating_mul(d.len()))).collect();
+        let strides = strides(self.hir.types.layout(element).size, dims);
         let mut fixed = 0u32;
         let mut moving = None;
-        for ((index, dim), stride) in indices.iter().zip(dims).zip(strides.iter().rev()) {
+        for ((index, dim), stride) in indices.iter().zip(dims).zip(&strides) {
             match self.interval(index) {
-                Some((i, j)) if i == j && inside(i, dim) => fixed += (i - dim.low as i128) as u32 * stride,
+                Some((i, j)) if i == j && inside(i, dim) => fixed = fixed.saturating_add(((i - dim.low as i128) as u32).saturating_mul(*stride)),
                 _ => {
                     let bytes = self.subscript(index, dim, *stride);
                     moving = Some(moving.map_or(bytes, |sum| self.f.binary(BinaryOp::Add, sum, bytes)));
@@ -63,6 +62,12 @@ impl Unit<'_, '_> {
             }
         }
     }
+}
+
+/// Bytes from one element to the next, in each dimension.
+fn strides(element: u32, dims: &[Dim]) -> Vec<u32> {
+    let inner = |d: usize| dims[d + 1..].iter().fold(element, |size, d| size.saturating_mul(d.len()));
+    (0..dims.len()).map(inner).collect()
 }
 
 fn inside(i: i128, dim: &Dim) -> bool {
