@@ -1,5 +1,6 @@
 //! From source text to an image.
 
+pub mod codegen;
 pub mod hir;
 pub mod mir;
 pub mod syntax;

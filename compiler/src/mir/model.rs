@@ -269,6 +269,6 @@ pub enum End {
     Switch { value: Local, cases: Vec<(i64, BlockId)>, otherwise: BlockId },
     /// Leaves the function.
     Return(Option<Local>),
-    /// Always traps.
+    /// Always traps. If the block does nothing else, native code may report the line of the branch that led to it.
     Trap(Trap),
 }
