@@ -2,4 +2,5 @@
 
 pub mod mir_gen;
 pub mod mir_run;
+pub mod plc;
 pub mod rng;

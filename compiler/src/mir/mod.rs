@@ -2,9 +2,12 @@
 //! ([`interpret`]).
 
 pub mod interpret;
+mod loops;
 pub mod lower;
 pub mod model;
 pub mod ops;
+mod promote;
+mod region;
 pub mod text;
 pub mod verify;
 

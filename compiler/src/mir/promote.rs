@@ -7,7 +7,7 @@
 use super::loops::{Loop, loops, predecessors, retarget, successors};
 use super::model::*;
 use super::region::{Region, Regions};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use takt_base::index::Index;
 use takt_image::{NativeImport, NativeKind, Scalar};
 
@@ -44,6 +44,9 @@ pub fn promote(f: &mut Function, regions: &Regions, natives: &[NativeImport]) {
     let mut done = Vec::new();
     while let Some(next) = loops(f).into_iter().find(|l| !done.contains(&l.header)) {
         done.push(next.header);
+        if next.header == BlockId(0) {
+            continue;
+        }
         let Some(accesses) = accesses(f, &next, regions, natives, &fixed) else { continue };
         let cells = cells(&accesses, regions);
         if !cells.is_empty() {
@@ -155,10 +158,13 @@ fn cells(accesses: &[Access], regions: &Regions) -> Vec<(Cell, bool)> {
             entry.2 += 1;
         }
     }
-    let mut free: Vec<_> = uses.into_iter().filter(|(cell, (region, written, _))| {
-        let others = accesses.iter().filter(|a| a.cell != Some(*cell) && (a.writes || *written));
-        others.into_iter().all(|a| !regions.may_overlap(a.region, *region))
-    }).collect();
+    let mut free: Vec<_> = uses
+        .into_iter()
+        .filter(|(cell, (region, written, _))| {
+            let others = accesses.iter().filter(|a| a.cell != Some(*cell) && (a.writes || *written));
+            others.into_iter().all(|a| !regions.may_overlap(a.region, *region))
+        })
+        .collect();
     free.sort_by_key(|(cell, (_, _, count))| (std::cmp::Reverse(*count), *cell));
     free.truncate(CELLS_MAX);
     free.into_iter().map(|(cell, (_, written, _))| (cell, written)).collect()
@@ -194,7 +200,7 @@ fn store_at_exits(f: &mut Function, l: &Loop, stores: &[Op]) {
         if matches!(f.blocks[block].end, End::Return(_)) {
             f.blocks[block].insts.extend(code());
         }
-        let outside: Vec<_> = successors(&f.blocks[block].end).into_iter().filter(|s| !l.blocks.contains(s)).collect();
+        let outside: BTreeSet<_> = successors(&f.blocks[block].end).into_iter().filter(|s| !l.blocks.contains(s)).collect();
         for target in outside {
             let between = f.blocks.push(Block { insts: code().collect(), end: End::Jump(target), end_line: line });
             let end = f.blocks[block].end.clone();
@@ -214,3 +220,6 @@ fn load_before(f: &mut Function, l: &Loop, loads: Vec<Op>) {
         f.blocks[block].end = retarget(end, |b| if b == l.header { before } else { b });
     }
 }
+
+#[cfg(test)]
+mod tests;

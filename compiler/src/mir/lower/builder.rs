@@ -1,7 +1,9 @@
 //! Makes one MIR function: typed locals, blocks, frame space. Knows nothing of the language.
 //! Code behind a block's end is dropped, and blocks that nobody reaches are left out of the result.
 
+use crate::mir::loops::{retarget, successors};
 use crate::mir::model::*;
+use crate::mir::region::{Region, Regions};
 use takt_base::index::{Index, IndexVec};
 use takt_image::{Scalar, Trap};
 
@@ -12,6 +14,8 @@ pub struct Builder {
     current: BlockId,
     /// Line of what is emitted next.
     pub line: LineId,
+    /// What locals with addresses point to.
+    pub regions: Regions,
     frame: u64,
     frame_max: u64,
 }
@@ -31,7 +35,7 @@ impl Builder {
     pub fn new(line: LineId) -> Self {
         let mut blocks = IndexVec::new();
         let current = blocks.push(Draft::default());
-        Self { locals: IndexVec::new(), blocks, current, line, frame: 0, frame_max: 0 }
+        Self { locals: IndexVec::new(), blocks, current, line, regions: Regions::default(), frame: 0, frame_max: 0 }
     }
 
     /// A new local.
@@ -155,8 +159,18 @@ impl Builder {
     pub fn address(&mut self, addr: Addr) -> Local {
         match addr {
             Addr { base: AddrBase::Local(l), offset: 0 } => l,
-            _ => self.with(Scalar::I32, |d| Op::Address(d, addr)),
+            _ => {
+                let local = self.with(Scalar::I32, |d| Op::Address(d, addr));
+                self.regions.set(local, self.regions.of(addr, 0));
+                local
+            }
         }
+    }
+    /// An address computed by the caller, which is within the `size` bytes at `object`.
+    pub fn within(&mut self, local: Local, object: Addr, size: u64) -> Addr {
+        let region = self.regions.of(object, size);
+        self.regions.set(local, Region { exact: false, ..region });
+        at(local)
     }
     /// Traps if the condition is not 0.
     pub fn trap_if(&mut self, trap: Trap, condition: Local) {
@@ -184,7 +198,7 @@ impl Builder {
     }
 
     /// The finished function. All reachable blocks must have an end.
-    pub fn finish(self, name: String, pou: String, params: Vec<Local>, result: Option<Scalar>) -> Function {
+    pub fn finish(self, name: String, pou: String, params: Vec<Local>, result: Option<Scalar>) -> (Function, Regions) {
         let reached = self.reached();
         let mut numbers = vec![BlockId(0); self.blocks.len()];
         let kept = self.blocks.indices().filter(|b| reached[b.index()]);
@@ -192,7 +206,7 @@ impl Builder {
         let drafts = self.blocks.iter().zip(&reached).filter(|(_, r)| **r);
         let blocks = drafts.map(|(draft, _)| close(draft, &numbers)).collect();
         let frame = u32::try_from(self.frame_max.next_multiple_of(8)).unwrap_or(u32::MAX);
-        Function { name, pou, params, result, locals: self.locals, frame, blocks }
+        (Function { name, pou, params, result, locals: self.locals, frame, blocks }, self.regions)
     }
 
     fn reached(&self) -> Vec<bool> {
@@ -212,29 +226,6 @@ impl Builder {
 fn close(draft: &Draft, numbers: &[BlockId]) -> Block {
     let (end, end_line) = draft.end.clone().expect("a reachable block has an end");
     Block { insts: draft.insts.clone(), end: retarget(end, |b| numbers[b.index()]), end_line }
-}
-
-/// Blocks that an end leads to.
-pub fn successors(end: &End) -> Vec<BlockId> {
-    match end {
-        End::Jump(b) => vec![*b],
-        End::Branch { then, otherwise, .. } => vec![*then, *otherwise],
-        End::Switch { cases, otherwise, .. } => cases.iter().map(|c| c.1).chain([*otherwise]).collect(),
-        End::Return(_) | End::Trap(_) => vec![],
-    }
-}
-
-/// The same end with other targets.
-pub fn retarget(end: End, to: impl Fn(BlockId) -> BlockId) -> End {
-    match end {
-        End::Jump(b) => End::Jump(to(b)),
-        End::Branch { condition, then, otherwise } => End::Branch { condition, then: to(then), otherwise: to(otherwise) },
-        End::Switch { value, cases, otherwise } => {
-            let cases = cases.into_iter().map(|(v, b)| (v, to(b))).collect();
-            End::Switch { value, cases, otherwise: to(otherwise) }
-        }
-        other => other,
-    }
 }
 
 /// `addr + bytes`.

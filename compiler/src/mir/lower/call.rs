@@ -3,7 +3,7 @@
 //! What has no address of its own (a bit of the process image, a part of a word) is lent through a place on the frame and written
 //! back after the call.
 
-use super::builder::{at, behind};
+use super::builder::behind;
 use super::expr::{Text, Value};
 use super::native::slot_of;
 use super::place::{Loc, field};
@@ -219,8 +219,8 @@ impl Unit<'_, '_> {
 
     /// The entry that a task runs for a program with connections: inputs, program, outputs (§10.3).
     pub fn run_program(&mut self, instance: &ProgramInstance) {
-        let this = at(self.param(Scalar::I32));
         let pou = &self.hir.pous[instance.pou];
+        let this = self.instance_param(pou);
         for (var, value) in &instance.inputs {
             self.at_line(value.span);
             let var = &pou.vars[*var];

@@ -20,7 +20,8 @@ pub struct Data {
     pool: HashMap<Vec<u8>, u32>,
     /// Initial contents of globals and instances, then of the pool.
     chunks: Chunks,
-    start: u32,
+    /// First byte of the data area.
+    pub start: u32,
     next: u64,
 }
 

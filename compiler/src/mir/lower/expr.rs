@@ -110,7 +110,11 @@ impl Unit<'_, '_> {
         let (more, done) = (self.f.block(), self.f.block());
         let first = self.value(a);
         self.f.copy(result, first);
-        if op == Operator::AndThen { self.f.branch(first, more, done) } else { self.f.branch(first, done, more) }
+        if op == Operator::AndThen {
+            self.f.branch(first, more, done)
+        } else {
+            self.f.branch(first, done, more)
+        }
         self.f.enter(more);
         let second = self.value(b);
         self.f.copy(result, second);

@@ -1,6 +1,6 @@
 //! Array elements: a bounds check for each subscript that is not proven to be inside, then one multiplication each.
 
-use super::builder::{at, behind};
+use super::builder::behind;
 use super::unit::Unit;
 use crate::hir::model::*;
 use crate::mir::model::*;
@@ -15,7 +15,9 @@ impl Unit<'_, '_> {
         let mut moving = None;
         for ((index, dim), stride) in indices.iter().zip(dims).zip(&strides) {
             match self.interval(index) {
-                Some((i, j)) if i == j && inside(i, dim) => fixed = fixed.saturating_add(((i - dim.low as i128) as u32).saturating_mul(*stride)),
+                Some((i, j)) if i == j && inside(i, dim) => {
+                    fixed = fixed.saturating_add(((i - dim.low as i128) as u32).saturating_mul(*stride))
+                }
                 _ => {
                     let bytes = self.subscript(index, dim, *stride);
                     moving = Some(moving.map_or(bytes, |sum| self.f.binary(BinaryOp::Add, sum, bytes)));
@@ -23,7 +25,8 @@ impl Unit<'_, '_> {
             }
         }
         let start = behind(array, fixed);
-        moving.map_or(start, |bytes| self.moved(start, bytes))
+        let size = dims.iter().fold(self.hir.types.layout(element).size, |size, d| size.saturating_mul(d.len()));
+        moving.map_or(start, |bytes| self.moved(start, bytes, array, size))
     }
 
     /// Bytes from the start of the dimension to subscript `index`.
@@ -49,18 +52,17 @@ impl Unit<'_, '_> {
         self.f.resize(value, if fits { Scalar::I32 } else { Scalar::I64 }, e.is_signed_storage())
     }
 
-    fn moved(&mut self, start: Addr, bytes: Local) -> Addr {
-        match start.base {
-            AddrBase::Static => Addr { base: AddrBase::Local(bytes), ..start },
-            AddrBase::Local(base) => {
-                let sum = self.f.binary(BinaryOp::Add, base, bytes);
-                Addr { base: AddrBase::Local(sum), ..start }
-            }
+    /// `start + bytes`, which is within the array.
+    fn moved(&mut self, start: Addr, bytes: Local, array: Addr, size: u32) -> Addr {
+        let (local, offset) = match start.base {
+            AddrBase::Static => (bytes, start.offset),
+            AddrBase::Local(base) => (self.f.binary(BinaryOp::Add, base, bytes), start.offset),
             AddrBase::Frame => {
                 let base = self.f.address(start);
-                at(self.f.binary(BinaryOp::Add, base, bytes))
+                (self.f.binary(BinaryOp::Add, base, bytes), 0)
             }
-        }
+        };
+        behind(self.f.within(local, array, size as u64), offset)
     }
 }
 

@@ -3,7 +3,7 @@
 use super::builder::fixed;
 use super::expr::{Text, Value};
 use super::operator::Operand;
-use super::shape::{Shape, scalar};
+use super::shape::scalar;
 use super::unit::Unit;
 use crate::hir::model::*;
 use crate::mir::model::*;
@@ -169,11 +169,6 @@ impl Unit<'_, '_> {
             (Value::Text(t), Value::Text(o)) => Value::Text(Text { capacity: t.capacity.max(o.capacity), ..t }),
             (value, _) => value,
         }
-    }
-
-    /// True if values of this type are held in registers.
-    pub fn is_scalar(&self, ty: TypeId) -> bool {
-        matches!(self.shape(ty), Shape::Scalar(_))
     }
 }
 

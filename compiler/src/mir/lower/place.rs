@@ -90,14 +90,16 @@ impl Unit<'_, '_> {
         let start = self.f.address(text);
         let offset = self.f.binary_const(BinaryOp::Mul, position, unit as i64);
         let target = self.f.binary(BinaryOp::Add, start, offset);
-        self.no_zero_up_to(start, target, unit);
+        let bytes = (capacity as u64 + 1) * unit as u64;
+        let cursor = self.f.duplicate(start);
+        self.f.within(cursor, text, bytes);
+        self.no_zero_up_to(cursor, target, unit);
         self.f.line = line;
-        at(target)
+        self.f.within(target, text, bytes)
     }
 
-    /// Traps if a unit in `start ..= last` is zero.
-    fn no_zero_up_to(&mut self, start: Local, last: Local, unit: u32) {
-        let cursor = self.f.duplicate(start);
+    /// Moves the cursor to `last`; traps at a zero unit on the way or there.
+    fn no_zero_up_to(&mut self, cursor: Local, last: Local, unit: u32) {
         let (head, next, done) = (self.f.block(), self.f.block(), self.f.block());
         self.f.jump(head);
         self.f.enter(head);

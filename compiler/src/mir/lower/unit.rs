@@ -11,6 +11,8 @@ use super::shape::{Shape, scalar, shape};
 use super::walk::{self, Event};
 use crate::hir::model::*;
 use crate::mir::model::*;
+use crate::mir::promote::promote;
+use crate::mir::region::{Object, Region};
 use crate::syntax::ast::Edge;
 use std::collections::HashSet;
 use takt_base::index::IndexVec;
@@ -87,6 +89,7 @@ impl<'p, 'h> Unit<'p, 'h> {
     pub fn new(program: &'p mut Program<'h>, pou: Option<PouId>, start: Span) -> Self {
         let mut f = Builder::new(program.lines.of(start));
         let exit = f.block();
+        f.regions.data_start = program.data.start as u64;
         Unit {
             hir: program.hir,
             program,
@@ -117,7 +120,25 @@ impl<'p, 'h> Unit<'p, 'h> {
             let help = format!("a unit has {} bytes at most; make large variables global", FRAME_BYTES);
             self.program.diags.push(Diag::new(Code::TypeTooLarge, span, label).help(help));
         }
-        self.f.finish(name, pou, self.params, result)
+        let (mut function, regions) = self.f.finish(name, pou, self.params, result);
+        promote(&mut function, &regions, self.program.natives.as_slice());
+        function
+    }
+
+    /// Adds the parameter with the offset of an instance.
+    pub fn instance_param(&mut self, pou: &Pou) -> Addr {
+        let this = self.param(Scalar::I32);
+        let size = pou.instance.map_or(0, |ty| self.hir.types.layout(ty).size);
+        self.f.regions.set(this, Region { object: Object::Instance, low: 0, high: size as u64, exact: true });
+        self.f.regions.instance_is_apart = pou.kind == PouKind::Program;
+        at(this)
+    }
+
+    /// Adds the parameter with the offset of something of the caller.
+    fn reference_param(&mut self) -> Local {
+        let local = self.param(Scalar::I32);
+        self.f.regions.set(local, Region::whole(Object::Foreign));
+        local
     }
 
     /// Continues on the line of `span`; returns the line before.
@@ -158,7 +179,7 @@ impl<'p, 'h> Unit<'p, 'h> {
     }
 
     fn instance_parameter(&mut self, pou: &'h Pou) {
-        let this = self.param(Scalar::I32);
+        let this = self.instance_param(pou);
         let instance = pou.instance.expect("blocks and programs have an instance type");
         for (id, var) in pou.vars.enumerate() {
             let home = match var.storage {
@@ -166,7 +187,7 @@ impl<'p, 'h> Unit<'p, 'h> {
                 Storage::Local => self.local_home(id, var),
                 Storage::Field(i) => {
                     let f = field(&self.hir.types, instance, i).expect("a field of the instance");
-                    self.field_home(pou, var, behind(at(this), f.offset))
+                    self.field_home(pou, var, behind(this, f.offset))
                 }
             };
             self.homes.push(home);
@@ -179,6 +200,7 @@ impl<'p, 'h> Unit<'p, 'h> {
             return Home::Memory(addr);
         }
         let target = self.f.load(Scalar::I32, addr);
+        self.f.regions.set(target, Region::whole(Object::Foreign));
         if pou.kind == PouKind::Program {
             let unbound = self.f.compare_const(Compare::Eq, target, 0);
             self.f.trap_if(Trap::Reference, unbound);
@@ -188,7 +210,7 @@ impl<'p, 'h> Unit<'p, 'h> {
 
     fn function_parameters(&mut self, pou: &'h Pou) {
         let result = pou.result.filter(|r| !matches!(self.shape(pou.vars[*r].ty), Shape::Scalar(_)));
-        let destination = result.map(|_| self.param(Scalar::I32));
+        let destination = result.map(|_| self.reference_param());
         let incoming: Vec<_> = pou.params.iter().map(|p| (*p, self.incoming(&pou.vars[*p]))).collect();
         for (id, var) in pou.vars.enumerate() {
             let given = incoming.iter().find(|(p, _)| *p == id).map(|(_, local)| *local);
@@ -216,7 +238,7 @@ impl<'p, 'h> Unit<'p, 'h> {
     fn incoming(&mut self, var: &Var) -> Local {
         match self.shape(var.ty) {
             Shape::Scalar(e) if var.role == Role::Input => self.param(scalar(e)),
-            _ => self.param(Scalar::I32),
+            _ => self.reference_param(),
         }
     }
 
