@@ -6,4 +6,5 @@ pub mod generate;
 mod markdown;
 pub mod mir_gen;
 pub mod mir_run;
+pub mod plc;
 pub mod rng;

@@ -2,10 +2,15 @@
 //! ([`interpret`]).
 
 pub mod interpret;
+mod loops;
+pub mod lower;
 pub mod model;
 pub mod ops;
+mod promote;
+mod region;
 pub mod text;
 pub mod verify;
 
 pub use interpret::Interpreter;
+pub use lower::{Lowered, lower};
 pub use verify::{Problem, verify};
