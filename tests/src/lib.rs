@@ -1,1 +1,10 @@
-//! See ARCHITECTURE.md.
+//! What the tests of the whole share: random numbers, random programs, both engines side by side, readers of conformance tables.
+
+pub mod cycle_table;
+pub mod expression_table;
+pub mod generate;
+mod markdown;
+pub mod mir_gen;
+pub mod mir_run;
+pub mod plc;
+pub mod rng;

@@ -1,0 +1,121 @@
+//! MIR to x86-64 machine code. Cranelift is named in this folder alone.
+//!
+//! The code is position independent and has no relocations: calls between functions are patched here, constants lie behind their
+//! function. A function is called as `extern "sysv64" fn(memory: *mut u8, frame: u32, args...)` and knows nothing but what it is
+//! given: the header of the memory holds stack limit, frame limit and native entry.
+//! Invariant: same module, same bytes, on every machine; nothing is taken from the host. The module is verified.
+
+mod address;
+mod arith;
+mod bytes;
+mod calls;
+mod function;
+mod isa;
+mod link;
+mod ops;
+mod strings;
+
+use crate::mir::model::{FuncId, Module};
+use cranelift_codegen::Context;
+use cranelift_codegen::control::ControlPlane;
+use cranelift_codegen::isa::TargetIsa;
+use cranelift_frontend::FunctionBuilderContext;
+use link::{Compiled, Linker};
+use std::num::NonZero;
+use std::thread;
+use takt_base::index::Index;
+use takt_image::image::{Function, LineSite, TrapSite};
+
+/// Machine code and its tables, as an image holds them.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct Code {
+    /// By `FuncId`.
+    pub functions: Vec<Function>,
+    /// Machine code; functions begin at multiples of 16.
+    pub code: Vec<u8>,
+    /// Instructions that trap, ascending.
+    pub traps: Vec<TrapSite>,
+    /// Where lines begin, ascending. Each function begins with one, if the module knows its line.
+    pub lines: Vec<LineSite>,
+}
+
+/// Functions for which another thread is worth its start.
+const FUNCTIONS_PER_THREAD: usize = 64;
+
+/// Compiles a verified module. An error is a fault of the compiler, not of the user.
+pub fn emit(module: &Module) -> Result<Code, String> {
+    let isa = isa::target()?;
+    let mut linker = Linker::new(module);
+    for compiled in compile_all(module, &*isa) {
+        linker.add(compiled?);
+    }
+    linker.finish()
+}
+
+/// All functions in order, on as many threads as are worth it.
+fn compile_all(module: &Module, isa: &dyn TargetIsa) -> Vec<Result<Compiled, String>> {
+    let count = module.functions.len();
+    let threads = thread::available_parallelism().map_or(1, NonZero::get).min(count / FUNCTIONS_PER_THREAD + 1);
+    let ids: Vec<FuncId> = module.functions.indices().collect();
+    let compile = |ids: &[FuncId]| {
+        let mut compiler = Compiler::new(module, isa);
+        ids.iter().map(|&id| compiler.compile(id)).collect::<Vec<_>>()
+    };
+    if threads == 1 {
+        return compile(&ids);
+    }
+    thread::scope(|scope| {
+        let parts: Vec<_> = ids.chunks(count.div_ceil(threads)).map(|ids| scope.spawn(move || compile(ids))).collect();
+        let failed = || vec![Err("a thread of the code generator panicked".to_string())];
+        parts.into_iter().flat_map(|part| part.join().unwrap_or_else(|_| failed())).collect()
+    })
+}
+
+/// The Cranelift form of a function, before optimisation.
+pub fn clif(module: &Module, id: FuncId) -> Result<String, String> {
+    let isa = isa::target()?;
+    let mut compiler = Compiler::new(module, &*isa);
+    compiler.build(id);
+    Ok(compiler.context.func.display().to_string())
+}
+
+/// The machine code of a function as assembly text.
+pub fn disassemble(module: &Module, id: FuncId) -> Result<String, String> {
+    let isa = isa::target()?;
+    let mut compiler = Compiler::new(module, &*isa);
+    compiler.build(id);
+    compiler.context.set_disasm(true);
+    let code = compiler.context.compile(&*isa, &mut ControlPlane::default()).map_err(|e| format!("{:?}", e.inner))?;
+    Ok(code.vcode.clone().unwrap_or_default())
+}
+
+/// Compiles functions one after the other, with the memory of the one before.
+struct Compiler<'m> {
+    module: &'m Module,
+    isa: &'m dyn TargetIsa,
+    context: Context,
+    builder: FunctionBuilderContext,
+}
+
+impl<'m> Compiler<'m> {
+    fn new(module: &'m Module, isa: &'m dyn TargetIsa) -> Self {
+        Self { module, isa, context: Context::new(), builder: FunctionBuilderContext::new() }
+    }
+
+    fn build(&mut self, id: FuncId) {
+        self.context.clear();
+        function::build(self.module, id, &mut self.context.func, &mut self.builder, self.isa.frontend_config());
+    }
+
+    fn compile(&mut self, id: FuncId) -> Result<Compiled, String> {
+        self.build(id);
+        let name = &self.module.functions[id].name;
+        let result = self.context.compile(self.isa, &mut ControlPlane::default());
+        let code = result.map_err(|e| format!("function `{name}` ({}): {:?}", id.index(), e.inner))?;
+        let buffer = code.buffer.clone();
+        Compiled::new(id, &buffer, &self.context.func).map_err(|e| format!("function `{name}`: {e}"))
+    }
+}
+
+#[cfg(test)]
+mod tests;

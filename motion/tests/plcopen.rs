@@ -1,0 +1,299 @@
+//! Acceptance scenarios of the single-axis blocks: S01, S06, S07, S11 and the rules behind them.
+
+mod common;
+use common::rig::{Programs, Rig, one_axis};
+use takt_base::Code;
+use takt_motion::Background;
+use takt_motion::axis::AxisState;
+
+fn powered() -> Rig {
+    let mut rig = Rig::new(&one_axis(), Programs::new(), Background::Inline);
+    rig.power_on();
+    rig
+}
+
+/// S01 a: a second move takes over; the first shows CommandAborted until its Execute falls.
+#[test]
+fn s01_a_abort() {
+    let mut rig = powered();
+    let (a, b) = (rig.fb("MC_MoveAbsolute"), rig.fb("MC_MoveAbsolute"));
+    rig.motion(&a, 1000.0, 100.0, 100.0);
+    rig.motion(&b, 0.0, 100.0, 100.0);
+    rig.set(&a, "Execute", true);
+    rig.run(&[&a, &b], 5000);
+    assert!(rig.get(&a, "Busy") && rig.get(&a, "Active") && rig.state() == AxisState::DiscreteMotion);
+    rig.set(&b, "Execute", true);
+    rig.run(&[&a, &b], 1);
+    assert!(rig.get(&b, "Busy") && rig.get(&b, "Active"));
+    rig.run(&[&a, &b], 1999);
+    assert!(rig.get(&a, "CommandAborted") && !rig.get(&a, "Busy") && !rig.get(&a, "Active") && !rig.get(&a, "Done"));
+    rig.set(&a, "Execute", false);
+    rig.run(&[&a, &b], 1);
+    assert!(!["Busy", "Active", "Done", "CommandAborted", "Error"].iter().any(|p| rig.get(&a, p)));
+    rig.until(&[&a, &b], &b, "Done", 10_000);
+    assert_eq!(rig.position(), 0.0);
+}
+
+/// S01 b: a drive fault instead.
+#[test]
+fn s01_b_drive_fault() {
+    let mut rig = powered();
+    let (a, error) = (rig.fb("MC_MoveAbsolute"), rig.fb("MC_ReadAxisError"));
+    rig.set(&error, "Enable", true);
+    rig.motion(&a, 1000.0, 100.0, 100.0);
+    rig.set(&a, "Execute", true);
+    rig.run(&[&a, &error], 5000);
+    rig.machine.core_mut().axes[0].set_drive_fault(true);
+    rig.run(&[&a, &error], 2);
+    assert!(rig.get(&a, "Error") && !rig.get(&a, "Busy") && !rig.get(&a, "Active") && !rig.get(&a, "CommandAborted"));
+    assert_eq!((rig.get_u16(&a, "ErrorID"), rig.get_u16(&error, "AxisErrorID")), (0x0201, 0x0201));
+    assert_eq!(rig.state(), AxisState::ErrorStop);
+    // The fault is still there: MC_Reset fails; later it works.
+    let reset = rig.fb("MC_Reset");
+    rig.set(&reset, "Execute", true);
+    rig.run(&[&reset], 1);
+    assert!(rig.get(&reset, "Error"));
+    rig.machine.core_mut().axes[0].set_drive_fault(false);
+    rig.set(&reset, "Execute", false);
+    rig.run(&[&reset], 100);
+    rig.set(&reset, "Execute", true);
+    rig.run(&[&reset], 2);
+    assert!(rig.get(&reset, "Done"));
+    assert_eq!(rig.state(), AxisState::Standstill);
+    assert!(rig.get(&a, "Error"), "reset does not clear the outputs of others");
+}
+
+/// S06: R1, R6: re-triggered with another target; the earlier command gives no feedback.
+#[test]
+fn s06_retrigger() {
+    let mut rig = powered();
+    let a = rig.fb("MC_MoveAbsolute");
+    rig.motion(&a, 1000.0, 100.0, 100.0);
+    rig.set(&a, "Execute", true);
+    rig.run(&[&a], 2000);
+    rig.set(&a, "Execute", false);
+    for _ in 0..1000 {
+        rig.run(&[&a], 1);
+        assert!(rig.get(&a, "Busy"));
+    }
+    assert!((rig.position() - 250.0).abs() < 0.2);
+    rig.motion(&a, 500.0, 100.0, 100.0);
+    rig.set(&a, "Execute", true);
+    let cycles = rig.until(&[&a], &a, "Done", 10_000);
+    assert!((cycles as i64 - 3000).abs() <= 2, "{cycles}");
+    assert_eq!(rig.position(), 500.0);
+    rig.run(&[&a], 500);
+    assert!(rig.get(&a, "Done") && rig.position() == 500.0, "nothing restarts");
+}
+
+/// R5: Execute shorter than the motion: Done for exactly one call.
+#[test]
+fn r5_done_for_one_call() {
+    let mut rig = powered();
+    let a = rig.fb("MC_MoveRelative");
+    rig.motion(&a, 10.0, 100.0, 1000.0);
+    rig.set(&a, "Execute", true);
+    rig.run(&[&a], 1);
+    rig.set(&a, "Execute", false);
+    let mut shown = 0;
+    for _ in 0..400 {
+        rig.run(&[&a], 1);
+        shown += usize::from(rig.get(&a, "Done"));
+    }
+    assert_eq!((shown, rig.position()), (1, 10.0));
+}
+
+/// S07 a: power comes after 50 ms; a command before it is refused.
+#[test]
+fn s07_a_power_on() {
+    let mut rig = Rig::new(&one_axis(), Programs::new(), Background::Inline);
+    let (power, a) = (rig.fb("MC_Power"), rig.fb("MC_MoveAbsolute"));
+    rig.motion(&a, 10.0, 100.0, 1000.0);
+    rig.set(&power, "Enable", true);
+    rig.run(&[&power, &a], 20);
+    rig.set(&a, "Execute", true);
+    rig.run(&[&power, &a], 1);
+    assert!(rig.get(&a, "Error") && rig.get_u16(&a, "ErrorID") == Code::NotPowered.error_id());
+    assert_eq!(rig.state(), AxisState::Disabled);
+    rig.set(&a, "Execute", false);
+    let cycles = 21 + rig.until(&[&power, &a], &power, "Status", 100);
+    assert!((cycles as i64 - 50).abs() <= 2, "{cycles}");
+    assert_eq!(rig.state(), AxisState::Standstill);
+    rig.set(&a, "Execute", true);
+    rig.until(&[&power, &a], &a, "Done", 1000);
+}
+
+/// S07 b: Enable falls while the axis moves: aborted, braked, Disabled, no error anywhere.
+#[test]
+fn s07_b_power_off() {
+    let mut config = one_axis();
+    config.axes[0].a_max_mm_s2 = 1000.0;
+    let mut rig = Rig::new(&config, Programs::new(), Background::Inline);
+    let power = rig.power_on().remove(0);
+    let a = rig.fb("MC_MoveAbsolute");
+    rig.motion(&a, 1000.0, 100.0, 100.0);
+    rig.set(&a, "Execute", true);
+    rig.run(&[&power, &a], 3000);
+    assert!((rig.velocity() - 100.0).abs() < 1e-9);
+    rig.set(&power, "Enable", false);
+    rig.run(&[&power, &a], 1);
+    assert!(rig.get(&a, "CommandAborted"));
+    let from = rig.position();
+    rig.run(&[&power, &a], 200);
+    assert_eq!((rig.state(), rig.velocity()), (AxisState::Disabled, 0.0));
+    assert!((rig.position() - from - 5.0).abs() < 0.2, "braked with 1000 mm/s2: {}", rig.position() - from);
+    assert!(!rig.get(&power, "Status") && !rig.get(&power, "Error") && !rig.get(&a, "Error"));
+}
+
+/// S11: MC_Stop; Stopping lasts as long as Execute or the motion.
+#[test]
+fn s11_stop() {
+    for (held, stopping_until) in [(3000, 3000), (1000, 2000)] {
+        let mut rig = powered();
+        let (a, stop, late) = (rig.fb("MC_MoveAbsolute"), rig.fb("MC_Stop"), rig.fb("MC_MoveAbsolute"));
+        rig.motion(&a, 5000.0, 100.0, 1000.0);
+        rig.motion(&late, 0.0, 100.0, 1000.0);
+        rig.set(&a, "Execute", true);
+        rig.run(&[&a], 500);
+        rig.lreal(&stop, "Deceleration", 50.0);
+        rig.set(&stop, "Execute", true);
+        let (mut done_from, mut done_calls, mut standstill) = (None, 0, None);
+        for t in 0..4000 {
+            if t == held {
+                rig.set(&stop, "Execute", false);
+            }
+            rig.call(&a);
+            rig.call(&stop);
+            if rig.get(&stop, "Done") {
+                done_from = done_from.or(Some(t));
+                done_calls += 1;
+            }
+            if t == 500 {
+                rig.set(&late, "Execute", true);
+                rig.call(&late);
+                assert_eq!(rig.get_u16(&late, "ErrorID"), Code::WrongState.error_id());
+                assert!(rig.get(&a, "CommandAborted"));
+            }
+            if rig.state() == AxisState::Standstill {
+                standstill = standstill.or(Some(t));
+            }
+            rig.tick();
+        }
+        assert!((done_from.expect("Done") as i64 - 2000).abs() <= 2);
+        assert!((standstill.expect("Standstill") as i64 - i64::from(stopping_until)).abs() <= 2, "{held}: {standstill:?}");
+        if held > 2000 {
+            assert!((done_calls as i64 - 1000).abs() <= 2, "{done_calls}");
+        } else {
+            assert_eq!(done_calls, 1);
+        }
+    }
+}
+
+/// MC_Halt goes through DiscreteMotion; MC_Home renumbers; MC_ReadStatus shows exactly one state.
+#[test]
+fn halt_home_and_status() {
+    let mut rig = powered();
+    let (a, halt, home) = (rig.fb("MC_MoveAbsolute"), rig.fb("MC_Halt"), rig.fb("MC_Home"));
+    let (status, actual) = (rig.fb("MC_ReadStatus"), rig.fb("MC_ReadActualPosition"));
+    rig.set(&status, "Enable", true);
+    rig.set(&actual, "Enable", true);
+    rig.motion(&a, 1000.0, 100.0, 1000.0);
+    rig.set(&a, "Execute", true);
+    rig.run(&[&a, &status], 500);
+    rig.set(&halt, "Execute", true);
+    rig.lreal(&halt, "Deceleration", 100.0);
+    rig.run(&[&a, &halt, &status], 500);
+    assert!(rig.get(&status, "DiscreteMotion") && rig.get(&a, "CommandAborted"));
+    rig.until(&[&a, &halt], &halt, "Done", 1000);
+    rig.lreal(&home, "Position", -7.5);
+    rig.set(&home, "Execute", true);
+    rig.until(&[&home], &home, "Done", 10);
+    rig.run(&[&status, &actual], 10);
+    assert!((rig.get_lreal(&actual, "Position") + 7.5).abs() < 1e-6);
+    let states = ["ErrorStop", "Disabled", "Stopping", "Homing", "Standstill", "DiscreteMotion", "ContinuousMotion"];
+    assert_eq!(states.iter().filter(|p| rig.get(&status, p)).collect::<Vec<_>>(), [&"Standstill"]);
+    assert!(rig.machine.core().axes[0].is_homed());
+}
+
+/// §2.4: wrong parameters are errors of the block; the axis stays where it is.
+#[test]
+fn parameters_are_checked() {
+    let mut rig = powered();
+    let id = |rig: &mut Rig, target, v, a: f64| {
+        let fb = rig.fb("MC_MoveAbsolute");
+        rig.motion(&fb, target, v, a);
+        rig.set(&fb, "Execute", true);
+        rig.run(&[&fb], 3);
+        (rig.get_u16(&fb, "ErrorID"), rig.state())
+    };
+    let refused = |code: Code| (code.error_id(), AxisState::Standstill);
+    assert_eq!(id(&mut rig, 20_000.0, 10.0, 10.0), refused(Code::LimitExceeded));
+    assert_eq!(id(&mut rig, f64::NAN, 10.0, 10.0), refused(Code::ParameterOutOfRange));
+    assert_eq!(id(&mut rig, 1.0, 0.0, 10.0), refused(Code::ParameterOutOfRange));
+    assert_eq!(id(&mut rig, 1.0, 10.0, -1.0), refused(Code::ParameterOutOfRange));
+    let buffered = rig.fb("MC_MoveAbsolute");
+    rig.motion(&buffered, 1.0, 1.0, 1.0);
+    rig.int(&buffered, "BufferMode", 1);
+    rig.set(&buffered, "Execute", true);
+    rig.run(&[&buffered], 1);
+    assert_eq!(rig.get_u16(&buffered, "ErrorID"), Code::UnsupportedOption.error_id());
+    let nowhere = rig.fb("MC_MoveAbsolute");
+    rig.refer(&nowhere, 0);
+    rig.set(&nowhere, "Execute", true);
+    rig.run(&[&nowhere], 1);
+    assert_eq!(rig.get_u16(&nowhere, "ErrorID"), Code::UnknownReference.error_id());
+}
+
+/// MC_Power.EnablePositive: the direction is taken away while the axis moves that way: error of the block, no ErrorStop.
+#[test]
+fn direction_is_blocked() {
+    let mut rig = Rig::new(&one_axis(), Programs::new(), Background::Inline);
+    let power = rig.power_on().remove(0);
+    let a = rig.fb("MC_MoveAbsolute");
+    rig.motion(&a, 1000.0, 100.0, 100.0);
+    rig.set(&a, "Execute", true);
+    rig.run(&[&power, &a], 1000);
+    rig.set(&power, "EnablePositive", false);
+    rig.run(&[&power, &a], 10);
+    assert_eq!(rig.get_u16(&a, "ErrorID"), Code::DirectionBlocked.error_id());
+    rig.run(&[&power, &a], 100);
+    assert_eq!((rig.state(), rig.velocity()), (AxisState::Standstill, 0.0));
+}
+
+/// R1-183: an axis that can't follow stops with F0200.
+#[test]
+fn following_error_stops_the_axis() {
+    let mut config = one_axis();
+    config.axes[0].following_error_max_mm = 1.0;
+    let mut rig = Rig::new(&config, Programs::new(), Background::Inline);
+    rig.power_on();
+    rig.machine.core_mut().axes[0].disturb(3.0);
+    rig.run(&[], 2);
+    assert_eq!(rig.machine.core().axes[0].error(), Some(Code::FollowingError));
+    assert_eq!(rig.state(), AxisState::ErrorStop);
+}
+
+/// A second MC_Power of the same axis is an error.
+#[test]
+fn one_power_block_per_axis() {
+    let mut rig = powered();
+    let second = rig.fb("MC_Power");
+    rig.run(&[&second], 1);
+    assert!(rig.get(&second, "Error") && rig.state() == AxisState::Standstill);
+}
+
+/// safe_stop brings a moving axis to rest and takes the power away, whatever the program still asks for.
+#[test]
+fn safe_stop() {
+    use takt_image::Cyclic;
+    let mut rig = Rig::new(&one_axis(), Programs::new(), Background::Inline);
+    let power = rig.power_on().remove(0);
+    let a = rig.fb("MC_MoveAbsolute");
+    rig.motion(&a, 1000.0, 100.0, 100.0);
+    rig.set(&a, "Execute", true);
+    rig.run(&[&power, &a], 1000);
+    rig.machine.safe_stop();
+    rig.run(&[&power, &a], 300);
+    assert_eq!((rig.state(), rig.velocity()), (AxisState::Disabled, 0.0));
+    assert!(!rig.machine.core().axes[0].has_power());
+}
