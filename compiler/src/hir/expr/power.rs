@@ -55,7 +55,7 @@ impl Builder<'_> {
     }
 
     /// An integer exponent as LINT, a real one in the type of the base.
-    pub(super) fn exponent(&mut self, b: Operand, base: TypeId) -> Option<Expr> {
+    pub fn exponent(&mut self, b: Operand, base: TypeId) -> Option<Expr> {
         let e = self.elementary(b.expr.ty);
         let lint = self.elem(Elementary::Lint);
         match (b.flex, e) {
