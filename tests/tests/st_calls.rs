@@ -1,7 +1,8 @@
 //! Functions, function blocks, programs and tasks, run on both engines. From: language reference §4, §10; library reference §10.
 
-use takt_image::Trap;
-use takt_tests::plc::{Plc, check_in, check_program, fault};
+use takt_base::Severity;
+use takt_image::{NativeKind, Scalar, Trap};
+use takt_tests::plc::{Plc, check_in, check_program, compile_st, fault};
 
 #[test]
 fn functions_with_outputs_and_in_outs() {
@@ -77,8 +78,7 @@ fn recursion_works_and_its_depth_is_limited() {
 
 #[test]
 fn nested_blocks_keep_their_state() {
-    let f =
-        "FUNCTION_BLOCK count VAR_INPUT inc : INT := 1; END_VAR VAR_OUTPUT n : INT; END_VAR n := n + inc; END_FUNCTION_BLOCK
+    let f = "FUNCTION_BLOCK count VAR_INPUT inc : INT := 1; END_VAR VAR_OUTPUT n : INT; END_VAR n := n + inc; END_FUNCTION_BLOCK
         FUNCTION_BLOCK pair VAR_INPUT k : INT; END_VAR VAR_OUTPUT sum : INT; END_VAR VAR a, b : count; END_VAR
         a(); b(inc := k); sum := a.n + b.n; END_FUNCTION_BLOCK
         PROGRAM p VAR x : pair; y : ARRAY[1..2] OF pair; i, s : INT; END_VAR
@@ -177,4 +177,38 @@ fn program_connections() {
 fn faults_are_found_in_called_units() {
     let text = "FUNCTION inv : INT\nVAR_INPUT x : INT; END_VAR\ninv := 100 / x;\nEND_FUNCTION\nPROGRAM p VAR r, z : INT; END_VAR\nr := inv(z);\nEND_PROGRAM";
     assert_eq!(fault(text), (Trap::DivisionByZero, 3));
+}
+
+#[test]
+fn external_units_are_imports() {
+    let text = "{external} FUNCTION_BLOCK MC_Test VAR_INPUT Execute : BOOL; END_VAR VAR_OUTPUT Done : BOOL; END_VAR END_FUNCTION_BLOCK
+        {external} FUNCTION Probe : LREAL VAR_INPUT n : INT; s : STRING[10]; END_VAR VAR_IN_OUT x : DINT; END_VAR END_FUNCTION
+        PROGRAM p VAR m : MC_Test; x : DINT; r : LREAL; d : BOOL; END_VAR m(Execute := TRUE, Done => d); r := Probe(n := 3, s := 'ab', x := x); END_PROGRAM";
+    let image = compile_st(text).image.expect("no errors");
+    let imports: Vec<_> = image.natives.iter().map(|n| n.name.as_str()).collect();
+    assert_eq!(imports, ["MC_Test", "Probe"]);
+    assert!(matches!(&image.natives[0].kind, NativeKind::Block { ty } if image.types.display(*ty) == "MC_Test"));
+    let params = vec![Scalar::I16, Scalar::I32, Scalar::I32, Scalar::I32];
+    assert_eq!(image.natives[1].kind, NativeKind::Function { params, result: Some(Scalar::F64) });
+}
+
+/// P2016.
+#[test]
+fn memory_is_limited() {
+    let codes = |text: &str| compile_st(text).diags.iter().map(|d| (d.code.text(), d.severity)).collect::<Vec<_>>();
+    let error = [("P2016", Severity::Error)];
+    assert_eq!(codes("PROGRAM p VAR a : ARRAY[1..200000000] OF LREAL; END_VAR END_PROGRAM"), error);
+    assert_eq!(codes("PROGRAM p VAR a, b, c : ARRAY[1..50000000] OF LREAL; END_VAR END_PROGRAM"), error);
+    let f = "FUNCTION f : INT VAR a : ARRAY[1..2000000] OF INT; END_VAR f := a[2]; END_FUNCTION PROGRAM p VAR n : INT; END_VAR n := f(); END_PROGRAM";
+    assert_eq!(codes(f), error);
+}
+
+/// A block that is a global variable may be reached by its name and as the running instance.
+#[test]
+fn global_blocks_see_themselves() {
+    let text = "VAR_GLOBAL g : count; END_VAR
+        FUNCTION_BLOCK count VAR_INPUT a : DINT; END_VAR VAR_OUTPUT n : DINT; END_VAR VAR i : DINT; END_VAR
+        FOR i := 1 TO 3 DO n := n + a; IF g.n > 3 THEN g.a := 10; END_IF; END_FOR; END_FUNCTION_BLOCK
+        PROGRAM p VAR_EXTERNAL g : count; END_VAR VAR d : DINT; END_VAR g(a := 2); d := g.n; END_PROGRAM";
+    check_program(text, 1, &[("p.d", "14")]);
 }

@@ -123,7 +123,8 @@ fn characters() {
 /// §2.11.
 #[test]
 fn parts_of_words() {
-    let body = "w.3 := TRUE; w.15 := TRUE; b := w.15; d.%B1 := 16#AB; d.%W1 := 16#1234; y := d.%B3; l.%X63 := TRUE; l.%D0 := 16#5;";
+    let body =
+        "w.3 := TRUE; w.15 := TRUE; b := w.15; d.%B1 := 16#AB; d.%W1 := 16#1234; y := d.%B3; l.%X63 := TRUE; l.%D0 := 16#5;";
     check(
         "w : WORD; d : DWORD; l : LWORD; b : BOOL; y : BYTE;",
         body,

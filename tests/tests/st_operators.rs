@@ -175,8 +175,7 @@ fn conversions() {
         "i := LREAL_TO_DINT(z / z); u := LREAL_TO_ULINT(1.0E30 + z);",
         &[("i", "0"), ("u", "18446744073709551615")],
     );
-    let vars =
-        "d : DINT := 70000; i : INT; u : UINT := 200; s : SINT; n : INT := -1; w : DWORD; v : UDINT; b : BYTE := 16#FF; c : SINT;";
+    let vars = "d : DINT := 70000; i : INT; u : UINT := 200; s : SINT; n : INT := -1; w : DWORD; v : UDINT; b : BYTE := 16#FF; c : SINT;";
     let body = "i := DINT_TO_INT(d); s := UINT_TO_SINT(u); w := INT_TO_DWORD(n); v := INT_TO_UDINT(n); c := BYTE_TO_SINT(b);";
     check(vars, body, &[("i", "4464"), ("s", "-56"), ("w", "65535"), ("v", "4294967295"), ("c", "-1")]);
     check(
@@ -194,8 +193,16 @@ fn conversions() {
 /// A number of 64 bits becomes a REAL in one rounding: by way of LREAL this one would end a unit lower.
 #[test]
 fn int_to_real_rounds_once() {
-    check("l : LINT := 1152921573326323713; f : REAL; d : LREAL;", "f := LINT_TO_REAL(l); d := f;", &[("d", "1.1529216420458004e18")]);
-    check("l : ULINT := 1152921573326323713; f : REAL; d : LREAL;", "f := ULINT_TO_REAL(l); d := f;", &[("d", "1.1529216420458004e18")]);
+    check(
+        "l : LINT := 1152921573326323713; f : REAL; d : LREAL;",
+        "f := LINT_TO_REAL(l); d := f;",
+        &[("d", "1.1529216420458004e18")],
+    );
+    check(
+        "l : ULINT := 1152921573326323713; f : REAL; d : LREAL;",
+        "f := ULINT_TO_REAL(l); d := f;",
+        &[("d", "1.1529216420458004e18")],
+    );
 }
 
 /// Library reference §8.1.
