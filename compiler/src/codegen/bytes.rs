@@ -127,7 +127,7 @@ impl Translator<'_, '_> {
     }
 
     /// Begins a loop with an I64 counter.
-    fn loop_from(&mut self, start: Value) -> (Block, Value) {
+    pub(super) fn loop_from(&mut self, start: Value) -> (Block, Value) {
         let (body, params) = self.new_block(&[types::I64]);
         self.jump(body, &[start]);
         self.b.switch_to_block(body);
@@ -135,7 +135,7 @@ impl Translator<'_, '_> {
     }
 
     /// Ends it, and goes on behind.
-    fn loop_while(&mut self, more: Value, body: Block, next: Value) {
+    pub(super) fn loop_while(&mut self, more: Value, body: Block, next: Value) {
         let (done, _) = self.new_block(&[]);
         self.branch(more, (body, &[next]), (done, &[]));
         self.b.seal_block(body);

@@ -1,6 +1,6 @@
 //! One function: signature, entry, blocks and how they end.
 
-use super::isa::{Isas, successors};
+use super::isa::successors;
 use crate::mir::model::*;
 use crate::mir::ops::mask;
 use cranelift_codegen::ir::condcodes::IntCC;
@@ -8,14 +8,20 @@ use cranelift_codegen::ir::{
     self, AbiParam, ArgumentPurpose, BlockArg, FuncRef, GlobalValueData, InstBuilder, MemFlagsData, SigRef, Signature, SourceLoc,
     StackSlot, TrapCode, Type, UserFuncName, Value, types,
 };
-use cranelift_codegen::isa::CallConv;
+use cranelift_codegen::isa::{CallConv, TargetFrontendConfig};
 use cranelift_frontend::{FunctionBuilder, FunctionBuilderContext, Switch, Variable};
 use std::collections::HashMap;
 use takt_base::index::Index;
 use takt_image::{Scalar, Trap, header};
 
 /// Translates a function of a verified module.
-pub(super) fn build(module: &Module, id: FuncId, func: &mut ir::Function, memory: &mut FunctionBuilderContext, isas: &Isas) {
+pub(super) fn build(
+    module: &Module,
+    id: FuncId,
+    func: &mut ir::Function,
+    memory: &mut FunctionBuilderContext,
+    target: TargetFrontendConfig,
+) {
     let function = &module.functions[id];
     func.name = UserFuncName::user(0, id.0);
     func.signature = signature(function);
@@ -24,7 +30,7 @@ pub(super) fn build(module: &Module, id: FuncId, func: &mut ir::Function, memory
     translator.entry();
     translator.blocks();
     translator.b.seal_all_blocks();
-    translator.b.finalize(isas.frontend());
+    translator.b.finalize(target);
 }
 
 /// The machine type.

@@ -1,62 +1,12 @@
-//! The target: x86-64 with SSE4.2 and POPCNT, System V, whatever machine the compiler runs on. Two variants of it.
+//! The target: x86-64 with SSE4.2 and POPCNT, System V, whatever machine the compiler runs on.
 //!
-//! Optimisation pays for numbers and loops (2-4 times). For networks of BOOLs in memory it does harm: forwarding stores to loads
-//! makes hundreds of values live at once, and spilling them costs more than the loads did. Such functions are compiled as they stand.
+//! One level of optimisation serves all but giants: numbers and loops gain 2-4 times. A network of BOOLs in memory neither gains nor loses (1000
+//! rungs of the ladder benchmark: 1.1 us a scan either way; gcc -O2 1.7 us), since accesses have no alias regions: forwarding stores to
+//! loads would make hundreds of values live at once, and spilling them costs more than the loads do (3.1 us with BOOLs in locals).
 
-use crate::mir::model::{Block, BlockId, End, Function, Op};
+use crate::mir::model::{BlockId, End, Function};
 use cranelift_codegen::isa::{self, OwnedTargetIsa, TargetFrontendConfig, TargetIsa};
 use cranelift_codegen::settings::{self, Configurable, Flags};
-use takt_base::index::Index;
-use takt_image::Scalar;
-
-/// How a function is compiled.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Style {
-    /// Optimised.
-    Numbers,
-    /// As it stands: a network of BOOLs.
-    Contacts,
-}
-
-/// Instructions of a function from which on the style matters.
-const SMALLEST_NETWORK: usize = 64;
-
-/// Chooses the style: contacts if there are no loops, and at least half of the instructions load or store an I8 or combine such
-/// values, and they are enough to matter.
-pub fn style(f: &Function) -> Style {
-    let total: usize = f.blocks.iter().map(|b| b.insts.len()).sum();
-    let bools: usize = f.blocks.iter().map(|b| bool_insts(f, b)).sum();
-    let accesses: usize = f.blocks.iter().map(|b| bool_accesses(f, b)).sum();
-    let network = total >= SMALLEST_NETWORK && accesses * 3 >= total && bools * 4 >= total * 3;
-    if network && !has_loop(f) { Style::Contacts } else { Style::Numbers }
-}
-
-/// Loads and stores of I8.
-fn bool_accesses(f: &Function, block: &Block) -> usize {
-    let is_access = |op: &Op| matches!(*op, Op::Load(local, _) | Op::Store(_, local) if f.locals[local] == Scalar::I8);
-    block.insts.iter().filter(|i| is_access(&i.op)).count()
-}
-
-/// Instructions on I8 alone.
-fn bool_insts(f: &Function, block: &Block) -> usize {
-    let is_bool = |op: &Op| match *op {
-        Op::Load(local, _)
-        | Op::Store(_, local)
-        | Op::Int(local, _)
-        | Op::Copy(local, _)
-        | Op::Unary(_, local, _)
-        | Op::Binary(_, local, _, _) => f.locals[local] == Scalar::I8,
-        Op::Compare(_, _, a, _) => f.locals[a] == Scalar::I8,
-        Op::Select { dst, .. } => f.locals[dst] == Scalar::I8,
-        _ => false,
-    };
-    block.insts.iter().filter(|i| is_bool(&i.op)).count()
-}
-
-/// True if a block goes to itself or to one before. The lowering numbers blocks in program order.
-fn has_loop(f: &Function) -> bool {
-    f.blocks.enumerate().any(|(id, block)| successors(&block.end).any(|to| to.index() <= id.index()))
-}
 
 /// Blocks that may follow; a block may stand there more than once.
 pub(super) fn successors(end: &End) -> impl Iterator<Item = BlockId> {
@@ -69,34 +19,43 @@ pub(super) fn successors(end: &End) -> impl Iterator<Item = BlockId> {
     cases.iter().map(|c| c.1).chain(rest.into_iter().flatten())
 }
 
-/// The target in both styles.
-pub(super) struct Isas {
-    numbers: OwnedTargetIsa,
-    contacts: OwnedTargetIsa,
+/// The target: for functions of usual size, and for giants.
+pub(super) struct Target {
+    usual: OwnedTargetIsa,
+    giant: OwnedTargetIsa,
 }
 
-impl Isas {
+/// Instructions and blocks from which on a function is a giant. Optimiser and register allocator take time with the square of a
+/// chain of dependent instructions, or of the blocks through which a local lives: seconds here, hours at ten times the size. A giant
+/// is compiled as it stands, in a time that grows with its size alone, and runs 2-3 times slower.
+const GIANT: (usize, usize) = (40_000, 8_000);
+
+fn is_giant(f: &Function) -> bool {
+    let insts: usize = f.blocks.iter().map(|b| b.insts.len()).sum();
+    insts > GIANT.0 || f.blocks.len() > GIANT.1
+}
+
+impl Target {
     pub(super) fn new() -> Result<Self, String> {
-        Ok(Self { numbers: target("speed")?, contacts: target("none")? })
+        Ok(Self { usual: isa("speed", "backtracking")?, giant: isa("none", "single_pass")? })
     }
 
-    pub(super) fn get(&self, style: Style) -> &dyn TargetIsa {
-        match style {
-            Style::Numbers => &*self.numbers,
-            Style::Contacts => &*self.contacts,
-        }
+    /// How to compile this function.
+    pub(super) fn isa(&self, f: &Function) -> &dyn TargetIsa {
+        if is_giant(f) { &*self.giant } else { &*self.usual }
     }
 
     pub(super) fn frontend(&self) -> TargetFrontendConfig {
-        self.numbers.frontend_config()
+        self.usual.frontend_config()
     }
 }
 
-fn target(opt_level: &str) -> Result<OwnedTargetIsa, String> {
+fn isa(opt_level: &str, regalloc: &str) -> Result<OwnedTargetIsa, String> {
     let mut shared = settings::builder();
     let checked = if cfg!(debug_assertions) { "true" } else { "false" };
     for (name, value) in [
         ("opt_level", opt_level),
+        ("regalloc_algorithm", regalloc),
         ("is_pic", "true"),
         ("enable_verifier", checked),
         ("unwind_info", "false"),

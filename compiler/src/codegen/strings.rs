@@ -1,4 +1,4 @@
-//! Copying and comparing zero-ended strings: eight bytes at a time as long as no zero is among them, then unit by unit.
+//! Copying and comparing zero-ended strings: eight bytes at a time as far as the smaller capacity has whole words, then unit by unit.
 
 use super::address::Place;
 use super::function::Translator;
@@ -9,120 +9,170 @@ use cranelift_codegen::ir::{Block, InstBuilder, Type, Value, types};
 /// Bytes of a word.
 const WORD: u32 = 8;
 
-fn unit_type(unit: u32) -> Type {
-    if unit == 1 { types::I8 } else { types::I16 }
+/// Two strings of which `total` bytes are looked at.
+#[derive(Clone, Copy)]
+struct Pair {
+    /// Pointer to the target, or to the left side.
+    a: Value,
+    /// Pointer to the source, or to the right side.
+    b: Value,
+    unit: u32,
+    total: u32,
+}
+
+impl Pair {
+    fn unit_type(self) -> Type {
+        if self.unit == 1 { types::I8 } else { types::I16 }
+    }
+    /// Bytes in whole words.
+    fn whole(self) -> u32 {
+        self.total - self.total % WORD
+    }
 }
 
 impl Translator<'_, '_> {
     pub(super) fn copy_string(&mut self, to: (Addr, u32), from: (Addr, u32), unit: u32) {
-        let total = to.1.min(from.1) * unit;
-        let (to, from) = (self.pointer_to(to.0), self.pointer_to(from.0));
-        let ((tail, at), (end, end_at)) = (self.new_block(&[types::I64]), self.new_block(&[types::I64]));
-        self.copy_words(to, from, unit, total, tail);
-        self.copy_units(to, from, unit, total, (tail, at[0]), end);
+        let pair = Pair { a: self.pointer_to(to.0), b: self.pointer_to(from.0), unit, total: to.1.min(from.1) * unit };
+        let ((done, _), (end, end_at)) = (self.new_block(&[]), self.new_block(&[types::I64]));
+        self.copy_words(pair, done);
+        self.copy_units(pair, end);
         self.start(end);
-        let zero = self.b.ins().iconst(unit_type(unit), 0);
-        let place = self.indexed(to, end_at[0]);
+        let zero = self.b.ins().iconst(pair.unit_type(), 0);
+        let place = self.indexed(pair.a, end_at[0]);
         self.store(zero, place);
+        self.jump(done, &[]);
+        self.start(done);
     }
 
-    /// Copies whole words without a zero; then goes to `tail` with the index where it stopped.
-    fn copy_words(&mut self, to: Value, from: Value, unit: u32, total: u32, tail: Block) {
-        let zero = self.b.ins().iconst(types::I64, 0);
-        if total < WORD {
-            return self.jump(tail, &[zero]);
+    /// Copies whole words. At a word with a zero it goes to `done`, else it goes on behind the last word.
+    fn copy_words(&mut self, pair: Pair, done: Block) {
+        if pair.whole() == 0 {
+            return;
         }
-        let ((head, at), (body, _)) = (self.new_block(&[types::I64]), self.new_block(&[]));
-        self.jump(head, &[zero]);
-        self.b.switch_to_block(head);
-        let place = self.indexed(from, at[0]);
+        let zero = self.b.ins().iconst(types::I64, 0);
+        let (head, i) = self.loop_from(zero);
+        let ((last, _), (body, _)) = (self.new_block(&[]), self.new_block(&[]));
+        let place = self.indexed(pair.b, i);
         let word = self.load(types::I64, place);
-        let ends = self.has_zero(word, unit);
-        self.branch(ends, (tail, &[at[0]]), (body, &[]));
+        let zeros = self.zeros(word, pair.unit);
+        self.branch(zeros, (last, &[]), (body, &[]));
+        self.start(last);
+        self.store_last(pair, i, word, zeros);
+        self.jump(done, &[]);
         self.start(body);
-        let place = self.indexed(to, at[0]);
+        let place = self.indexed(pair.a, i);
         self.store(word, place);
-        self.next_word(at[0], total, head, tail);
+        self.next_word(pair, i, head);
     }
 
-    /// Copies units up to a zero or `total` bytes; then goes to `end` with the index of the zero to write.
-    fn copy_units(&mut self, to: Value, from: Value, unit: u32, total: u32, (tail, i): (Block, Value), end: Block) {
-        let ((read, _), (write, _)) = (self.new_block(&[]), self.new_block(&[]));
-        self.b.switch_to_block(tail);
-        let full = self.b.ins().icmp_imm_u(IntCC::UnsignedGreaterThanOrEqual, i, i64::from(total));
-        self.branch(full, (end, &[i]), (read, &[]));
-        self.start(read);
-        let place = self.indexed(from, i);
-        let value = self.load(unit_type(unit), place);
+    /// Stores the word up to its first zero; what the target has behind it stays.
+    fn store_last(&mut self, pair: Pair, i: Value, word: Value, zeros: Value) {
+        let place = self.indexed(pair.a, i);
+        let old = self.load(types::I64, place);
+        let mask = self.up_to_first(zeros);
+        let merged = self.b.ins().bitselect(mask, word, old);
+        self.store(merged, place);
+    }
+
+    /// Copies what is left behind the whole words, unit by unit; then goes to `end` with the index of the zero to write.
+    fn copy_units(&mut self, pair: Pair, end: Block) {
+        let start = self.b.ins().iconst(types::I64, i64::from(pair.whole()));
+        if pair.total == pair.whole() {
+            return self.jump(end, &[start]);
+        }
+        let (head, i) = self.loop_from(start);
+        let (write, _) = self.new_block(&[]);
+        let place = self.indexed(pair.b, i);
+        let value = self.load(pair.unit_type(), place);
         self.branch(value, (write, &[]), (end, &[i]));
         self.start(write);
-        let place = self.indexed(to, i);
+        let place = self.indexed(pair.a, i);
         self.store(value, place);
-        let next = self.b.ins().iadd_imm_u(i, i64::from(unit));
-        self.jump(tail, &[next]);
-        self.b.seal_block(tail);
+        let (next, more) = self.next_unit(pair, i);
+        self.branch(more, (head, &[next]), (end, &[next]));
+        self.b.seal_block(head);
     }
 
     pub(super) fn compare_string(&mut self, dst: Local, a: (Addr, u32), b: (Addr, u32), unit: u32) {
-        let total = a.1.min(b.1) * unit;
-        let longer = (a.1 * unit > total, b.1 * unit > total);
-        let (a, b) = (self.pointer_to(a.0), self.pointer_to(b.0));
-        let ((tail, at), (rest, _)) = (self.new_block(&[types::I64]), self.new_block(&[]));
+        let pair = Pair { a: self.pointer_to(a.0), b: self.pointer_to(b.0), unit, total: a.1.min(b.1) * unit };
         let (done, order) = self.new_block(&[types::I8]);
-        self.compare_words(a, b, unit, total, tail);
-        self.compare_units(a, b, unit, total, (tail, at[0]), rest, done);
-        self.start(rest);
-        let order_of_rest = self.compare_rest(a, b, unit, total, longer);
-        self.jump(done, &[order_of_rest]);
+        self.compare_words(pair, done);
+        self.compare_units(pair, done);
+        let rest = self.compare_rest(pair, a.1 > b.1, b.1 > a.1);
+        self.jump(done, &[rest]);
         self.start(done);
         self.set(dst, order[0]);
     }
 
-    /// Skips whole words that are equal and have no zero; then goes to `tail` with the index where it stopped.
-    fn compare_words(&mut self, a: Value, b: Value, unit: u32, total: u32, tail: Block) {
-        let zero = self.b.ins().iconst(types::I64, 0);
-        if total < WORD {
-            return self.jump(tail, &[zero]);
+    /// Skips whole words that are equal and have no zero. At any other it goes to `done` with the order, if the strings differ or
+    /// end there; else it goes on behind the last word.
+    fn compare_words(&mut self, pair: Pair, done: Block) {
+        if pair.whole() == 0 {
+            return;
         }
-        let ((head, at), (body, _)) = (self.new_block(&[types::I64]), self.new_block(&[]));
-        self.jump(head, &[zero]);
-        self.b.switch_to_block(head);
-        let (place_a, place_b) = (self.indexed(a, at[0]), self.indexed(b, at[0]));
+        let zero = self.b.ins().iconst(types::I64, 0);
+        let (head, i) = self.loop_from(zero);
+        let ((last, _), (body, _)) = (self.new_block(&[]), self.new_block(&[]));
+        let (place_a, place_b) = (self.indexed(pair.a, i), self.indexed(pair.b, i));
         let (word_a, word_b) = (self.load(types::I64, place_a), self.load(types::I64, place_b));
         let differ = self.b.ins().bxor(word_a, word_b);
-        let ends = self.has_zero(word_a, unit);
-        let stop = self.b.ins().bor(differ, ends);
-        self.branch(stop, (tail, &[at[0]]), (body, &[]));
+        let zeros = self.zeros(word_a, pair.unit);
+        let stop = self.b.ins().bor(differ, zeros);
+        self.branch(stop, (last, &[]), (body, &[]));
+        self.start(last);
+        let order = self.order_of_words(word_a, word_b, zeros, pair.unit);
+        self.jump(done, &[order]);
         self.start(body);
-        self.next_word(at[0], total, head, tail);
+        self.next_word(pair, i, head);
     }
 
-    /// Compares units up to a difference or a zero (then goes to `done` with the order) or `total` bytes (then to `rest`).
-    #[allow(clippy::too_many_arguments)] // two strings and three ways on
-    fn compare_units(&mut self, a: Value, b: Value, unit: u32, total: u32, (tail, i): (Block, Value), rest: Block, done: Block) {
-        let ((read, _), (same, _), (next, _)) = (self.new_block(&[]), self.new_block(&[]), self.new_block(&[]));
-        self.b.switch_to_block(tail);
-        let full = self.b.ins().icmp_imm_u(IntCC::UnsignedGreaterThanOrEqual, i, i64::from(total));
-        self.branch(full, (rest, &[]), (read, &[]));
-        self.start(read);
-        let (place_a, place_b) = (self.indexed(a, i), self.indexed(b, i));
-        let (unit_a, unit_b) = (self.load(unit_type(unit), place_a), self.load(unit_type(unit), place_b));
+    /// Order of two words up to the first zero of `a`. The first unit counts most.
+    fn order_of_words(&mut self, a: Value, b: Value, zeros: Value, unit: u32) -> Value {
+        let mask = self.up_to_first(zeros);
+        let (a, b) = (self.b.ins().band(a, mask), self.b.ins().band(b, mask));
+        let (a, b) = (self.first_unit_high(a, unit), self.first_unit_high(b, unit));
+        self.order(a, b)
+    }
+
+    /// Reverses the units of a word.
+    fn first_unit_high(&mut self, word: Value, unit: u32) -> Value {
+        let swapped = self.b.ins().bswap(word);
+        if unit == 1 {
+            return swapped;
+        }
+        let low = self.b.ins().iconst(types::I64, 0x00ff_00ff_00ff_00ff);
+        let even = self.b.ins().band(swapped, low);
+        let even = self.b.ins().ishl_imm_u(even, 8);
+        let odd = self.b.ins().ushr_imm_u(swapped, 8);
+        let odd = self.b.ins().band(odd, low);
+        self.b.ins().bor(even, odd)
+    }
+
+    /// Compares what is left behind the whole words, unit by unit. Goes to `done` with the order at a difference or a zero.
+    fn compare_units(&mut self, pair: Pair, done: Block) {
+        if pair.total == pair.whole() {
+            return;
+        }
+        let start = self.b.ins().iconst(types::I64, i64::from(pair.whole()));
+        let (head, i) = self.loop_from(start);
+        let ((same, _), (next, _)) = (self.new_block(&[]), self.new_block(&[]));
+        let (place_a, place_b) = (self.indexed(pair.a, i), self.indexed(pair.b, i));
+        let (unit_a, unit_b) = (self.load(pair.unit_type(), place_a), self.load(pair.unit_type(), place_b));
         let order = self.order(unit_a, unit_b);
         self.branch(order, (done, &[order]), (same, &[]));
         self.start(same);
         self.branch(unit_a, (next, &[]), (done, &[order]));
         self.start(next);
-        let after = self.b.ins().iadd_imm_u(i, i64::from(unit));
-        self.jump(tail, &[after]);
-        self.b.seal_block(tail);
+        let (after, more) = self.next_unit(pair, i);
+        self.loop_while(more, head, after);
     }
 
     /// Both are equal for `total` bytes without an end; the one with the larger capacity may go on.
-    fn compare_rest(&mut self, a: Value, b: Value, unit: u32, total: u32, longer: (bool, bool)) -> Value {
-        let zero = self.b.ins().iconst(unit_type(unit), 0);
-        let offset = total as i32;
-        let unit_a = if longer.0 { self.load(unit_type(unit), Place { base: a, offset }) } else { zero };
-        let unit_b = if longer.1 { self.load(unit_type(unit), Place { base: b, offset }) } else { zero };
+    fn compare_rest(&mut self, pair: Pair, a_longer: bool, b_longer: bool) -> Value {
+        let zero = self.b.ins().iconst(pair.unit_type(), 0);
+        let offset = pair.total as i32;
+        let unit_a = if a_longer { self.load(pair.unit_type(), Place { base: pair.a, offset }) } else { zero };
+        let unit_b = if b_longer { self.load(pair.unit_type(), Place { base: pair.b, offset }) } else { zero };
         self.order(unit_a, unit_b)
     }
 
@@ -133,9 +183,8 @@ impl Translator<'_, '_> {
         self.b.ins().isub(above, below)
     }
 
-    /// Not 0 if a unit of the word is 0: only there does the subtraction set the highest bit of a unit that had it clear, or in a
-    /// unit above one that is 0.
-    fn has_zero(&mut self, word: Value, unit: u32) -> Value {
+    /// Marks zero units by their highest bit. The lowest mark is right; marks above it may be wrong, since the subtraction borrows.
+    fn zeros(&mut self, word: Value, unit: u32) -> Value {
         let (ones, highs) = if unit == 1 {
             (0x0101_0101_0101_0101_u64, 0x8080_8080_8080_8080_u64)
         } else {
@@ -149,13 +198,25 @@ impl Translator<'_, '_> {
         self.b.ins().band(set, highs)
     }
 
-    /// To the next word in `head`, or to `tail` if no whole word is left.
-    fn next_word(&mut self, i: Value, total: u32, head: Block, tail: Block) {
+    /// All bits up to the lowest mark; all bits if there is none.
+    fn up_to_first(&mut self, zeros: Value) -> Value {
+        let one = self.b.ins().iconst(types::I64, 1);
+        let below = self.b.ins().isub(zeros, one);
+        self.b.ins().bxor(zeros, below)
+    }
+
+    /// To the next word, or on behind the loop.
+    fn next_word(&mut self, pair: Pair, i: Value, head: Block) {
         let next = self.b.ins().iadd_imm_u(i, i64::from(WORD));
-        let whole = i64::from(total - total % WORD);
-        let more = self.b.ins().icmp_imm_u(IntCC::UnsignedLessThan, next, whole);
-        self.branch(more, (head, &[next]), (tail, &[next]));
-        self.b.seal_block(head);
+        let more = self.b.ins().icmp_imm_u(IntCC::UnsignedLessThan, next, i64::from(pair.whole()));
+        self.loop_while(more, head, next);
+    }
+
+    /// Index of the next unit, and whether there is one.
+    fn next_unit(&mut self, pair: Pair, i: Value) -> (Value, Value) {
+        let next = self.b.ins().iadd_imm_u(i, i64::from(pair.unit));
+        let more = self.b.ins().icmp_imm_u(IntCC::UnsignedLessThan, next, i64::from(pair.total));
+        (next, more)
     }
 
     fn pointer_to(&mut self, addr: Addr) -> Value {

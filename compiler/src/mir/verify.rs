@@ -318,3 +318,7 @@ impl Verifier<'_> {
         }
     }
 }
+
+#[cfg(test)]
+#[path = "verify_tests.rs"]
+mod tests;

@@ -76,7 +76,8 @@ fn natives(module: &mut Module) {
     add("fail", &[I8], None); // the last: it is called seldom
 }
 
-/// Bytes of which many are zero, so that strings end.
+/// Bytes of which many or few are zero, so that strings are short or long; a few values, so that strings are alike.
 fn contents(rng: &mut Rng, size: usize) -> Vec<u8> {
-    (0..size).map(|_| if rng.one_in(8) { 0 } else { rng.bits() as u8 }).collect()
+    let (rarity, most) = (rng.pick(&[4, 8, 60, 400]), rng.pick(&[255, 255, 2, 1]));
+    (0..size).map(|_| if rng.one_in(rarity) { 0 } else { rng.bits() as u8 & most | 1 }).collect()
 }

@@ -118,3 +118,6 @@ fn fault(module: &Module, trap: Trap, function: FuncId, line: Option<LineId>) ->
     let function = if function.index() < module.functions.len() { function.0 } else { u32::MAX };
     Fault { trap, function, file: line.map_or(u32::MAX, |l| l.file), line: line.map_or(0, |l| l.line) }
 }
+
+#[cfg(test)]
+mod tests;

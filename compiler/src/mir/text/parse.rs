@@ -84,7 +84,6 @@ impl Parser {
     }
 
     /// An error about the next token.
-
     fn expected<T>(&self, what: &str) -> Parsed<T> {
         let found = match self.peek() {
             Token::Word(text) | Token::Number(text) => format!("`{text}`"),
