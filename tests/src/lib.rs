@@ -1,4 +1,4 @@
-//! What the tests of the whole share: random numbers, random programs, both engines side by side, readers of conformance tables.
+//! What the tests of the whole share: random numbers, random programs, whole programs on both engines, readers of conformance tables.
 
 pub mod cycle_table;
 pub mod expression_table;

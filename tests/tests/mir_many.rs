@@ -1,4 +1,5 @@
-//! Many functions: they are compiled on several threads, and every call reaches its function all the same.
+//! Many functions: they are compiled on several threads, and every call reaches its function all the same. And giants: they are
+//! compiled in a time that grows with their size alone, and mean the same.
 
 use std::fmt::Write;
 use std::sync::Arc;
@@ -18,16 +19,41 @@ fn chain(count: u32) -> String {
     out
 }
 
-#[test]
-fn calls_reach_their_functions() {
-    let count = 500;
-    let module = Arc::new(text::parse(&chain(count)).expect("the text is right"));
+/// Runs `main`, the last function, with the argument 7 on both engines; what they leave at 64.
+fn result(source: &str) -> u32 {
+    let module = Arc::new(text::parse(source).expect("the text is right"));
     assert_eq!(verify(&module), []);
     let map = MemoryMap::new(0, 0, 0, 64, 64).expect("small enough");
     let contents = vec![0; (map.size() - header::SIZE) as usize];
-    let outcomes = [interpret(&module, map, &contents, FuncId(count), 7), native(&module, map, &contents, FuncId(count), 7)];
-    for outcome in outcomes {
-        assert_eq!(outcome.result, Ok(()));
-        assert_eq!(outcome.memory[..4], (7 + count * (count - 1) / 2).to_le_bytes());
+    let entry = FuncId(module.functions.len() as u32 - 1);
+    let outcome = interpret(&module, map, &contents, entry, 7);
+    assert_eq!(outcome.result, Ok(()));
+    assert!(outcome == native(&module, map, &contents, entry, 7));
+    u32::from_le_bytes([outcome.memory[0], outcome.memory[1], outcome.memory[2], outcome.memory[3]])
+}
+
+#[test]
+fn calls_reach_their_functions() {
+    let count = 500;
+    assert_eq!(result(&chain(count)), 7 + count * (count - 1) / 2);
+}
+
+/// Optimised, this would take minutes.
+#[test]
+fn a_giant_of_one_block_is_compiled() {
+    let body = "  v1 = add v1, v0\n  v2 = mul v1, v2\n  v2 = xor v2, v0\n".repeat(30_000);
+    let source = format!("func main (v0: i32) {{\n  i32: v1 v2\nb0:\n{body}  store [64], v1\n  return\n}}\n");
+    assert_eq!(result(&source), 7 * 30_000);
+}
+
+#[test]
+fn a_giant_of_many_blocks_is_compiled() {
+    let count = 10_000;
+    let mut source = String::from("func main (v0: i32) {\n  i32: v1\n  i8: v2\n");
+    for i in 0..count {
+        let (next, after) = (i + 1, (i + 2).min(count));
+        let _ = writeln!(source, "b{i}:\n  v1 = add v1, v0\n  v2 = slt v1, v0\n  branch v2, b{after}, b{next}");
     }
+    let _ = writeln!(source, "b{count}:\n  store [64], v1\n  return\n}}");
+    assert_eq!(result(&source), 7 * count);
 }

@@ -53,7 +53,11 @@ fn division_of_the_minimum_wraps() {
 fn division_by_zero() {
     check("a : INT := 7; z, r : INT := 5;", "z := 0; r := a MOD z;", &[("r", "0")]);
     check("a : ULINT := 7; z, r : ULINT := 5;", "z := 0; r := a MOD z;", &[("r", "0")]);
-    check("a : LREAL := 7.0; z : LREAL; b, c : BOOL;", "b := IS_VALID(a / z); c := a / z > 1.0E300;", &[("b", "FALSE"), ("c", "TRUE")]);
+    check(
+        "a : LREAL := 7.0; z : LREAL; b, c : BOOL;",
+        "b := IS_VALID(a / z); c := a / z > 1.0E300;",
+        &[("b", "FALSE"), ("c", "TRUE")],
+    );
     for ty in ["SINT", "USINT", "INT", "DINT", "LINT", "ULINT"] {
         let text = format!("PROGRAM p\nVAR a, b, c : {ty};\nEND_VAR\na := 1;\nc := a / b;\nEND_PROGRAM");
         assert_eq!(fault(&text), (takt_image::Trap::DivisionByZero, 5), "{ty}");
@@ -64,7 +68,11 @@ fn division_by_zero() {
 fn reals() {
     check("x : REAL := 0.1; y : REAL := 0.2; z : REAL;", "z := x + y;", &[("z", "0.3")]);
     check("x : LREAL := 0.1; y : LREAL := 0.2; z : LREAL;", "z := x + y;", &[("z", "0.30000000000000004")]);
-    check("x : LREAL := -2.25; a, s, n : LREAL;", "a := ABS(x); s := SQRT(-x); n := -x;", &[("a", "2.25"), ("s", "1.5"), ("n", "2.25")]);
+    check(
+        "x : LREAL := -2.25; a, s, n : LREAL;",
+        "a := ABS(x); s := SQRT(-x); n := -x;",
+        &[("a", "2.25"), ("s", "1.5"), ("n", "2.25")],
+    );
     let vars = "z : LREAL; n : LREAL; a, b, c, d, e : BOOL;";
     let body = "n := z / z; a := n = n; b := n <> n; c := n < 1.0; d := n >= 1.0; e := NOT IS_VALID(n);";
     check(vars, body, &[("a", "FALSE"), ("b", "TRUE"), ("c", "FALSE"), ("d", "FALSE"), ("e", "TRUE")]);
@@ -72,21 +80,21 @@ fn reals() {
 
 #[test]
 fn power() {
-    check("x : LREAL := 2.0; n : INT := 10; m : INT := -1; a, b, c : LREAL;", "a := x ** n; b := x ** m; c := EXPT(x, 0.5);", &[
-        ("a", "1024.0"),
-        ("b", "0.5"),
-        ("c", "1.4142135623730951"),
-    ]);
+    check(
+        "x : LREAL := 2.0; n : INT := 10; m : INT := -1; a, b, c : LREAL;",
+        "a := x ** n; b := x ** m; c := EXPT(x, 0.5);",
+        &[("a", "1024.0"), ("b", "0.5"), ("c", "1.4142135623730951")],
+    );
     check("x : REAL := 3.0; a : REAL;", "a := x ** 2;", &[("a", "9.0")]);
 }
 
 #[test]
 fn bit_strings() {
-    check("a : BYTE := 16#45; n : INT := 2; x, y : BYTE; w : WORD := 16#45; v : WORD;", "x := SHL(a, n); y := SHR(a, n); v := SHL(w, n);", &[
-        ("x", "20"),
-        ("y", "17"),
-        ("v", "276"),
-    ]);
+    check(
+        "a : BYTE := 16#45; n : INT := 2; x, y : BYTE; w : WORD := 16#45; v : WORD;",
+        "x := SHL(a, n); y := SHR(a, n); v := SHL(w, n);",
+        &[("x", "20"), ("y", "17"), ("v", "276")],
+    );
     for (n, shl, shr, rol, ror) in [
         ("0", "129", "129", "129", "129"),
         ("7", "128", "1", "192", "3"),
@@ -100,33 +108,33 @@ fn bit_strings() {
         let body = "a := SHL(b, n); c := SHR(b, n); d := ROL(b, n); e := ROR(b, n);";
         check(&vars, body, &[("a", shl), ("c", shr), ("d", rol), ("e", ror)]);
     }
-    check("l : LWORD := 16#8000000000000001; n : DINT := 64; a, b, c : LWORD;", "a := SHL(l, n); b := SHR(l, 63); c := ROL(l, 1);", &[
-        ("a", "0"),
-        ("b", "1"),
-        ("c", "3"),
-    ]);
-    check("a, b : BOOL := TRUE; w : WORD := 16#00FF; x, y : WORD; c, d : BOOL;", "x := NOT w; y := w XOR 16#0F0F; c := a XOR b; d := NOT a;", &[
-        ("x", "65280"),
-        ("y", "4080"),
-        ("c", "FALSE"),
-        ("d", "FALSE"),
-    ]);
+    check(
+        "l : LWORD := 16#8000000000000001; n : DINT := 64; a, b, c : LWORD;",
+        "a := SHL(l, n); b := SHR(l, 63); c := ROL(l, 1);",
+        &[("a", "0"), ("b", "1"), ("c", "3")],
+    );
+    check(
+        "a, b : BOOL := TRUE; w : WORD := 16#00FF; x, y : WORD; c, d : BOOL;",
+        "x := NOT w; y := w XOR 16#0F0F; c := a XOR b; d := NOT a;",
+        &[("x", "65280"), ("y", "4080"), ("c", "FALSE"), ("d", "FALSE")],
+    );
 }
 
 #[test]
 fn comparisons_follow_the_sign() {
-    check("a : UDINT := 4294967295; b : UDINT := 1; c : DINT := -1; d : DINT := 1; x, y : BOOL;", "x := a > b; y := c > d;", &[
-        ("x", "TRUE"),
-        ("y", "FALSE"),
-    ]);
-    check("a : WORD := 16#FFFF; b : WORD := 1; x : BOOL;", "x := a > b;", &[("x", "TRUE")]);
+    check(
+        "a : UDINT := 4294967295; b : UDINT := 1; c : DINT := -1; d : DINT := 1; x, y : BOOL;",
+        "x := a > b; y := c > d;",
+        &[("x", "TRUE"), ("y", "FALSE")],
+    );
+    check("a : WORD := 16#FFFF; b : WORD := 16#1; x : BOOL;", "x := a > b;", &[("x", "TRUE")]);
     check("a : TIME := T#-1s; b : TIME := T#1s; x : BOOL;", "x := a < b;", &[("x", "TRUE")]);
     check("a, b : BOOL; x, y : BOOL;", "b := TRUE; x := a < b; y := GT(b, a);", &[("x", "TRUE"), ("y", "TRUE")]);
-    check("a : INT := 3; b : INT := 2; c : INT := 2; x, y, z : BOOL;", "x := GT(a, b, c); y := GE(a, b, c); z := EQ(b, c, b);", &[
-        ("x", "FALSE"),
-        ("y", "TRUE"),
-        ("z", "TRUE"),
-    ]);
+    check(
+        "a : INT := 3; b : INT := 2; c : INT := 2; x, y, z : BOOL;",
+        "x := GT(a, b, c); y := GE(a, b, c); z := EQ(b, c, b);",
+        &[("x", "FALSE"), ("y", "TRUE"), ("z", "TRUE")],
+    );
 }
 
 #[test]
@@ -162,29 +170,39 @@ fn conversions() {
     ] {
         check(&format!("x : REAL := {x}; i, t : INT;"), "i := REAL_TO_INT(x); t := REAL_TRUNC_INT(x);", &[("i", i), ("t", t)]);
     }
-    check("z : LREAL; i : DINT := 5; u : ULINT;", "i := LREAL_TO_DINT(z / z); u := LREAL_TO_ULINT(1.0E30 + z);", &[
-        ("i", "0"),
-        ("u", "18446744073709551615"),
-    ]);
-    let vars = "d : DINT := 70000; i : INT; u : UINT := 200; s : SINT; n : INT := -1; w : DWORD; v : UDINT; b : BYTE := 255; c : SINT;";
+    check(
+        "z : LREAL; i : DINT := 5; u : ULINT;",
+        "i := LREAL_TO_DINT(z / z); u := LREAL_TO_ULINT(1.0E30 + z);",
+        &[("i", "0"), ("u", "18446744073709551615")],
+    );
+    let vars = "d : DINT := 70000; i : INT; u : UINT := 200; s : SINT; n : INT := -1; w : DWORD; v : UDINT; b : BYTE := 16#FF; c : SINT;";
     let body = "i := DINT_TO_INT(d); s := UINT_TO_SINT(u); w := INT_TO_DWORD(n); v := INT_TO_UDINT(n); c := BYTE_TO_SINT(b);";
     check(vars, body, &[("i", "4464"), ("s", "-56"), ("w", "65535"), ("v", "4294967295"), ("c", "-1")]);
-    check("d : DWORD := 16#3F800000; r : REAL; b : BYTE := 3; x : BOOL; w : DWORD;", "r := DWORD_TO_REAL(d); x := BYTE_TO_BOOL(b); w := REAL_TO_DWORD(r);", &[
-        ("r", "1.0"),
-        ("x", "TRUE"),
-        ("w", "1065353216"),
-    ]);
-    check("u : ULINT := 18446744073709551615; r : LREAL; l : LINT := 16777217; f : REAL;", "r := ULINT_TO_LREAL(u); f := LINT_TO_REAL(l);", &[
-        ("r", "1.8446744073709552E+19"),
-        ("f", "16777216.0"),
-    ]);
+    check(
+        "d : DWORD := 16#3F800000; r : REAL; b : BYTE := 16#03; x : BOOL; w : DWORD;",
+        "r := DWORD_TO_REAL(d); x := BYTE_TO_BOOL(b); w := REAL_TO_DWORD(r);",
+        &[("r", "1.0"), ("x", "TRUE"), ("w", "1065353216")],
+    );
+    check(
+        "u : ULINT := 18446744073709551615; r : LREAL; l : LINT := 16777217; f : REAL;",
+        "r := ULINT_TO_LREAL(u); f := LINT_TO_REAL(l);",
+        &[("r", "1.8446744073709552e19"), ("f", "16777216.0")],
+    );
 }
 
 /// A number of 64 bits becomes a REAL in one rounding: by way of LREAL this one would end a unit lower.
 #[test]
 fn int_to_real_rounds_once() {
-    check("l : LINT := 9007200328482817; f : REAL; d : LREAL;", "f := LINT_TO_REAL(l); d := f;", &[("d", "9007200328482816.0")]);
-    check("l : LINT := 4503600164241409; d : LREAL;", "d := LINT_TO_REAL(l);", &[("d", "4503600701112320.0")]);
+    check(
+        "l : LINT := 1152921573326323713; f : REAL; d : LREAL;",
+        "f := LINT_TO_REAL(l); d := f;",
+        &[("d", "1.1529216420458004e18")],
+    );
+    check(
+        "l : ULINT := 1152921573326323713; f : REAL; d : LREAL;",
+        "f := ULINT_TO_REAL(l); d := f;",
+        &[("d", "1.1529216420458004e18")],
+    );
 }
 
 /// Library reference §8.1.
@@ -206,12 +224,7 @@ fn time_arithmetic() {
     }
     let vars = "t : TOD := TOD#23:59:59; d : DT := DT#2023-12-31-23:59:59; s : TIME := T#2s; x, y : TOD; e : DT; u : TIME;";
     let body = "x := t + s; y := TOD#00:00:01 - s; e := d + T#1s; u := TOD#08:00:00 - TOD#09:30:00;";
-    check(vars, body, &[
-        ("x", "TOD#00:00:01"),
-        ("y", "TOD#23:59:59"),
-        ("e", "DT#2024-01-01-00:00:00"),
-        ("u", "T#-1h30m"),
-    ]);
+    check(vars, body, &[("x", "TOD#00:00:01"), ("y", "TOD#23:59:59"), ("e", "DT#2024-01-01-00:00:00"), ("u", "T#-1h30m")]);
 }
 
 /// §5.4.

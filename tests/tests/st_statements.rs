@@ -19,22 +19,25 @@ fn for_at_the_ends_of_the_type() {
     check("i : SINT; n : INT;", "FOR i := -128 TO 127 BY 100 DO n := n + 1; END_FOR", &[("n", "3"), ("i", "72")]);
     check("i : SINT; n : INT;", "FOR i := 127 TO -128 BY -128 DO n := n + 1; END_FOR", &[("n", "2"), ("i", "-1")]);
     check("u : USINT; n : INT;", "FOR u := 0 TO 255 BY 255 DO n := n + 1; END_FOR", &[("n", "2"), ("u", "255")]);
-    check("i : LINT; n : INT;", "FOR i := 9223372036854775806 TO 9223372036854775807 DO n := n + 1; END_FOR", &[
-        ("n", "2"),
-        ("i", "9223372036854775807"),
-    ]);
-    check("u : ULINT; n : INT;", "FOR u := 18446744073709551614 TO 18446744073709551615 DO n := n + 1; END_FOR", &[
-        ("n", "2"),
-        ("u", "18446744073709551615"),
-    ]);
+    check(
+        "i : LINT; n : INT;",
+        "FOR i := 9223372036854775806 TO 9223372036854775807 DO n := n + 1; END_FOR",
+        &[("n", "2"), ("i", "9223372036854775807")],
+    );
+    check(
+        "u : ULINT; n : INT;",
+        "FOR u := 18446744073709551614 TO 18446744073709551615 DO n := n + 1; END_FOR",
+        &[("n", "2"), ("u", "18446744073709551615")],
+    );
 }
 
 #[test]
 fn for_evaluates_its_ends_once() {
-    check("i, n, e : INT; s : INT;", "e := 3; s := 1; FOR i := 1 TO e BY s DO e := 10; s := 5; n := n + i; END_FOR", &[
-        ("n", "6"),
-        ("i", "4"),
-    ]);
+    check(
+        "i, n, e : INT; s : INT;",
+        "e := 3; s := 1; FOR i := 1 TO e BY s DO e := 10; s := 5; n := n + i; END_FOR",
+        &[("n", "6"), ("i", "4")],
+    );
 }
 
 #[test]
@@ -50,10 +53,11 @@ fn for_with_a_variable_step() {
 #[test]
 fn exit_leaves_the_value_and_continue_steps() {
     check("i, n : INT;", "FOR i := 1 TO 10 DO IF i = 4 THEN EXIT; END_IF; n := n + 1; END_FOR", &[("n", "3"), ("i", "4")]);
-    check("i, n : INT;", "FOR i := 1 TO 10 DO IF i MOD 2 = 0 THEN CONTINUE; END_IF; n := n + i; END_FOR", &[
-        ("n", "25"),
-        ("i", "11"),
-    ]);
+    check(
+        "i, n : INT;",
+        "FOR i := 1 TO 10 DO IF i MOD 2 = 0 THEN CONTINUE; END_IF; n := n + i; END_FOR",
+        &[("n", "25"), ("i", "11")],
+    );
 }
 
 #[test]
@@ -106,7 +110,11 @@ fn exit_and_continue_nest() {
 fn while_and_repeat() {
     check("n, i : INT;", "WHILE i < 5 DO i := i + 1; IF i = 2 THEN CONTINUE; END_IF; n := n + i; END_WHILE", &[("n", "13")]);
     check("n : INT;", "REPEAT n := n + 1; UNTIL TRUE END_REPEAT", &[("n", "1")]);
-    check("n, i : INT;", "REPEAT i := i + 1; IF i = 3 THEN CONTINUE; END_IF; n := n + i; UNTIL i >= 5 END_REPEAT", &[("n", "12")]);
+    check(
+        "n, i : INT;",
+        "REPEAT i := i + 1; IF i = 3 THEN CONTINUE; END_IF; n := n + i; UNTIL i >= 5 END_REPEAT",
+        &[("n", "12")],
+    );
     check("n : INT;", "WHILE TRUE DO n := n + 1; IF n = 7 THEN EXIT; END_IF; END_WHILE", &[("n", "7")]);
 }
 

@@ -18,8 +18,8 @@ mod strings;
 use crate::mir::model::{FuncId, Module};
 use cranelift_codegen::Context;
 use cranelift_codegen::control::ControlPlane;
-use cranelift_codegen::isa::TargetIsa;
 use cranelift_frontend::FunctionBuilderContext;
+use isa::Target;
 use link::{Compiled, Linker};
 use std::num::NonZero;
 use std::thread;
@@ -44,21 +44,21 @@ const FUNCTIONS_PER_THREAD: usize = 64;
 
 /// Compiles a verified module. An error is a fault of the compiler, not of the user.
 pub fn emit(module: &Module) -> Result<Code, String> {
-    let isa = isa::target()?;
+    let target = Target::new()?;
     let mut linker = Linker::new(module);
-    for compiled in compile_all(module, &*isa) {
+    for compiled in compile_all(module, &target) {
         linker.add(compiled?);
     }
     linker.finish()
 }
 
 /// All functions in order, on as many threads as are worth it.
-fn compile_all(module: &Module, isa: &dyn TargetIsa) -> Vec<Result<Compiled, String>> {
+fn compile_all(module: &Module, target: &Target) -> Vec<Result<Compiled, String>> {
     let count = module.functions.len();
     let threads = thread::available_parallelism().map_or(1, NonZero::get).min(count / FUNCTIONS_PER_THREAD + 1);
     let ids: Vec<FuncId> = module.functions.indices().collect();
     let compile = |ids: &[FuncId]| {
-        let mut compiler = Compiler::new(module, isa);
+        let mut compiler = Compiler::new(module, target);
         ids.iter().map(|&id| compiler.compile(id)).collect::<Vec<_>>()
     };
     if threads == 1 {
@@ -73,44 +73,46 @@ fn compile_all(module: &Module, isa: &dyn TargetIsa) -> Vec<Result<Compiled, Str
 
 /// The Cranelift form of a function, before optimisation.
 pub fn clif(module: &Module, id: FuncId) -> Result<String, String> {
-    let isa = isa::target()?;
-    let mut compiler = Compiler::new(module, &*isa);
+    let target = Target::new()?;
+    let mut compiler = Compiler::new(module, &target);
     compiler.build(id);
     Ok(compiler.context.func.display().to_string())
 }
 
 /// The machine code of a function as assembly text.
 pub fn disassemble(module: &Module, id: FuncId) -> Result<String, String> {
-    let isa = isa::target()?;
-    let mut compiler = Compiler::new(module, &*isa);
+    let target = Target::new()?;
+    let mut compiler = Compiler::new(module, &target);
     compiler.build(id);
     compiler.context.set_disasm(true);
-    let code = compiler.context.compile(&*isa, &mut ControlPlane::default()).map_err(|e| format!("{:?}", e.inner))?;
+    let isa = target.isa(&module.functions[id]);
+    let code = compiler.context.compile(isa, &mut ControlPlane::default()).map_err(|e| format!("{:?}", e.inner))?;
     Ok(code.vcode.clone().unwrap_or_default())
 }
 
 /// Compiles functions one after the other, with the memory of the one before.
 struct Compiler<'m> {
     module: &'m Module,
-    isa: &'m dyn TargetIsa,
+    target: &'m Target,
     context: Context,
     builder: FunctionBuilderContext,
 }
 
 impl<'m> Compiler<'m> {
-    fn new(module: &'m Module, isa: &'m dyn TargetIsa) -> Self {
-        Self { module, isa, context: Context::new(), builder: FunctionBuilderContext::new() }
+    fn new(module: &'m Module, target: &'m Target) -> Self {
+        Self { module, target, context: Context::new(), builder: FunctionBuilderContext::new() }
     }
 
     fn build(&mut self, id: FuncId) {
         self.context.clear();
-        function::build(self.module, id, &mut self.context.func, &mut self.builder, self.isa.frontend_config());
+        function::build(self.module, id, &mut self.context.func, &mut self.builder, self.target.frontend());
     }
 
     fn compile(&mut self, id: FuncId) -> Result<Compiled, String> {
         self.build(id);
         let name = &self.module.functions[id].name;
-        let result = self.context.compile(self.isa, &mut ControlPlane::default());
+        let isa = self.target.isa(&self.module.functions[id]);
+        let result = self.context.compile(isa, &mut ControlPlane::default());
         let code = result.map_err(|e| format!("function `{name}` ({}): {:?}", id.index(), e.inner))?;
         let buffer = code.buffer.clone();
         Compiled::new(id, &buffer, &self.context.func).map_err(|e| format!("function `{name}`: {e}"))

@@ -13,15 +13,21 @@ pub struct Loop {
     pub blocks: BTreeSet<BlockId>,
 }
 
+/// For each block those that lead to it.
+pub type Predecessors = Vec<Vec<BlockId>>;
+
 /// All loops, larger ones first; loops with one header count as one.
-pub fn loops(f: &Function) -> Vec<Loop> {
-    let predecessors = predecessors(f);
-    let dominators = dominators(f, &predecessors);
+pub fn loops(f: &Function, predecessors: &Predecessors) -> Vec<Loop> {
+    let order = reverse_postorder(f);
+    let mut number = vec![usize::MAX; f.blocks.len()];
+    order.iter().enumerate().for_each(|(i, b)| number[b.index()] = i);
+    let dominators = dominators(&order, &number, predecessors);
     let mut found: BTreeMap<BlockId, BTreeSet<BlockId>> = BTreeMap::new();
     for (tail, block) in f.blocks.enumerate() {
-        for header in successors(&block.end) {
+        // Only an edge that goes back in the order can go to a dominator.
+        for header in successors(&block.end).into_iter().filter(|h| number[h.index()] <= number[tail.index()]) {
             if dominates(&dominators, header, tail) {
-                grow(found.entry(header).or_insert_with(|| BTreeSet::from([header])), tail, &predecessors);
+                grow(found.entry(header).or_insert_with(|| BTreeSet::from([header])), tail, predecessors);
             }
         }
     }
@@ -31,7 +37,7 @@ pub fn loops(f: &Function) -> Vec<Loop> {
 }
 
 /// Adds everything from which `tail` is reached without passing the header.
-fn grow(blocks: &mut BTreeSet<BlockId>, tail: BlockId, predecessors: &[Vec<BlockId>]) {
+fn grow(blocks: &mut BTreeSet<BlockId>, tail: BlockId, predecessors: &Predecessors) {
     let mut todo = vec![tail];
     while let Some(block) = todo.pop() {
         if blocks.insert(block) {
@@ -40,8 +46,8 @@ fn grow(blocks: &mut BTreeSet<BlockId>, tail: BlockId, predecessors: &[Vec<Block
     }
 }
 
-/// Blocks that lead to each block.
-pub fn predecessors(f: &Function) -> Vec<Vec<BlockId>> {
+/// Blocks that lead to each block; one that does so by two ways stands there twice.
+pub fn predecessors(f: &Function) -> Predecessors {
     let mut found = vec![Vec::new(); f.blocks.len()];
     for (id, block) in f.blocks.enumerate() {
         successors(&block.end).into_iter().for_each(|s| found[s.index()].push(id));
@@ -50,18 +56,15 @@ pub fn predecessors(f: &Function) -> Vec<Vec<BlockId>> {
 }
 
 /// Immediate dominators, by the algorithm of Cooper, Harvey and Kennedy. `None` for unreachable blocks; the entry has itself.
-fn dominators(f: &Function, predecessors: &[Vec<BlockId>]) -> Vec<Option<BlockId>> {
-    let order = reverse_postorder(f);
-    let mut number = vec![usize::MAX; f.blocks.len()];
-    order.iter().enumerate().for_each(|(i, b)| number[b.index()] = i);
-    let mut idom = vec![None; f.blocks.len()];
+fn dominators(order: &[BlockId], number: &[usize], predecessors: &Predecessors) -> Vec<Option<BlockId>> {
+    let mut idom = vec![None; predecessors.len()];
     idom[0] = Some(BlockId(0));
     let mut changed = true;
     while changed {
         changed = false;
         for &block in &order[1..] {
             let done = predecessors[block.index()].iter().copied().filter(|p| idom[p.index()].is_some());
-            let new = done.reduce(|a, b| meet(&idom, &number, a, b));
+            let new = done.reduce(|a, b| meet(&idom, number, a, b));
             if new != idom[block.index()] {
                 idom[block.index()] = new;
                 changed = true;

@@ -6,8 +6,8 @@ mod loops;
 pub mod lower;
 pub mod model;
 pub mod ops;
-mod promote;
-mod region;
+pub mod promote;
+pub mod region;
 pub mod text;
 pub mod verify;
 

@@ -4,7 +4,7 @@
 //!
 //! Invariant: what the function does to memory, seen at calls and at its end, stays the same.
 
-use super::loops::{Loop, loops, predecessors, retarget, successors};
+use super::loops::{Loop, Predecessors, loops, predecessors, retarget, successors};
 use super::model::*;
 use super::region::{Region, Regions};
 use std::collections::{BTreeMap, BTreeSet};
@@ -41,16 +41,13 @@ struct Access {
 /// Promotes what can be promoted in all loops without calls, the outermost first.
 pub fn promote(f: &mut Function, regions: &Regions, natives: &[NativeImport]) {
     let fixed = assigned_once_as_parameter(f);
-    let mut done = Vec::new();
-    while let Some(next) = loops(f).into_iter().find(|l| !done.contains(&l.header)) {
-        done.push(next.header);
-        if next.header == BlockId(0) {
-            continue;
-        }
-        let Some(accesses) = accesses(f, &next, regions, natives, &fixed) else { continue };
+    let mut predecessors = predecessors(f);
+    // A change to a loop adds blocks to the loops around it alone, and those are done already.
+    for l in loops(f, &predecessors).iter().filter(|l| l.header != BlockId(0)) {
+        let Some(accesses) = accesses(f, l, regions, natives, &fixed) else { continue };
         let cells = cells(&accesses, regions);
         if !cells.is_empty() {
-            rewrite(f, &next, &cells);
+            rewrite(f, l, &cells, &mut predecessors);
         }
     }
 }
@@ -171,7 +168,7 @@ fn cells(accesses: &[Access], regions: &Regions) -> Vec<(Cell, bool)> {
 }
 
 /// Loads the cells before the loop, replaces their accesses, stores what was written on all ways out.
-fn rewrite(f: &mut Function, l: &Loop, cells: &[(Cell, bool)]) {
+fn rewrite(f: &mut Function, l: &Loop, cells: &[(Cell, bool)], predecessors: &mut Predecessors) {
     let registers: BTreeMap<Cell, Local> = cells.iter().map(|(c, _)| (*c, f.locals.push(c.scalar()))).collect();
     let fixed: Vec<Local> = cells.iter().filter_map(|(c, _)| if let Base::Local(l) = c.base { Some(l) } else { None }).collect();
     for block in &l.blocks {
@@ -186,11 +183,12 @@ fn rewrite(f: &mut Function, l: &Loop, cells: &[(Cell, bool)]) {
         }
     }
     let written: Vec<_> = cells.iter().filter(|(_, written)| *written).map(|(c, _)| Op::Store(c.addr(), registers[c])).collect();
-    store_at_exits(f, l, &written);
-    load_before(f, l, cells.iter().map(|(c, _)| Op::Load(registers[c], c.addr())).collect());
+    store_at_exits(f, l, &written, predecessors);
+    let loads = cells.iter().map(|(c, _)| Op::Load(registers[c], c.addr())).collect();
+    load_before(f, l, loads, predecessors);
 }
 
-fn store_at_exits(f: &mut Function, l: &Loop, stores: &[Op]) {
+fn store_at_exits(f: &mut Function, l: &Loop, stores: &[Op], predecessors: &mut Predecessors) {
     if stores.is_empty() {
         return;
     }
@@ -203,6 +201,7 @@ fn store_at_exits(f: &mut Function, l: &Loop, stores: &[Op]) {
         let outside: BTreeSet<_> = successors(&f.blocks[block].end).into_iter().filter(|s| !l.blocks.contains(s)).collect();
         for target in outside {
             let between = f.blocks.push(Block { insts: code().collect(), end: End::Jump(target), end_line: line });
+            insert(predecessors, between, target, vec![block]);
             let end = f.blocks[block].end.clone();
             f.blocks[block].end = retarget(end, |b| if b == target { between } else { b });
         }
@@ -210,15 +209,24 @@ fn store_at_exits(f: &mut Function, l: &Loop, stores: &[Op]) {
 }
 
 /// Puts a block on all ways into the loop.
-fn load_before(f: &mut Function, l: &Loop, loads: Vec<Op>) {
+fn load_before(f: &mut Function, l: &Loop, loads: Vec<Op>, predecessors: &mut Predecessors) {
     let line = f.blocks[l.header].insts.first().map_or(f.blocks[l.header].end_line, |i| i.line);
     let insts: Vec<_> = loads.into_iter().map(|op| Inst { op, line }).collect();
-    let outside: Vec<_> = predecessors(f)[l.header.index()].iter().copied().filter(|p| !l.blocks.contains(p)).collect();
+    let outside: Vec<_> = predecessors[l.header.index()].iter().copied().filter(|p| !l.blocks.contains(p)).collect();
     let before = f.blocks.push(Block { insts, end: End::Jump(l.header), end_line: line });
-    for block in outside {
+    for &block in &outside {
         let end = f.blocks[block].end.clone();
         f.blocks[block].end = retarget(end, |b| if b == l.header { before } else { b });
     }
+    insert(predecessors, before, l.header, outside);
+}
+
+/// Notes that the new block `between` stands between `from` and `to`.
+fn insert(predecessors: &mut Predecessors, between: BlockId, to: BlockId, from: Vec<BlockId>) {
+    debug_assert_eq!(predecessors.len(), between.index());
+    predecessors[to.index()].retain(|p| !from.contains(p));
+    predecessors[to.index()].push(between);
+    predecessors.push(from);
 }
 
 #[cfg(test)]

@@ -2,6 +2,7 @@
 
 use super::model::{Addr, AddrBase, Local};
 use std::collections::HashMap;
+use std::ops::Range;
 
 /// A run of bytes of an object.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -35,10 +36,8 @@ pub enum Object {
 #[derive(Clone, Debug, Default)]
 pub struct Regions {
     locals: HashMap<Local, Region>,
-    /// No fixed offset of the data area is in an instance: true for programs, whose instances have no name.
-    pub instance_is_apart: bool,
-    /// Where the data area begins: in front of it lies the process image, where no instance is.
-    pub data_start: u64,
+    /// Fixed offsets at which the running instance may be; empty for a program, whose instances have no name.
+    pub named_instances: Range<u64>,
 }
 
 impl Region {
@@ -83,6 +82,6 @@ impl Regions {
     }
 
     fn may_be_instance(&self, fixed: Region) -> bool {
-        !self.instance_is_apart && fixed.high > self.data_start
+        fixed.low < self.named_instances.end && self.named_instances.start < fixed.high
     }
 }

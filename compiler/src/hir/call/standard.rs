@@ -79,10 +79,10 @@ impl Builder<'_> {
             match found {
                 _ if eno => self.unsupported(formal.span, "EN and ENO", "test the condition with IF around the call"),
                 Found::Function { function, .. } => {
-                    let known = function.params.iter().map(|p| p.name.to_owned()).collect();
+                    let known = function.params.iter().map(|p| p.name.fit_owned()).collect();
                     self.unknown(Code::UnknownParameter, formal, known);
                 }
-                Found::Conversion { .. } => self.unknown(Code::UnknownParameter, formal, vec!["IN".to_owned()]),
+                Found::Conversion { .. } => self.unknown(Code::UnknownParameter, formal, vec!["IN".fit_owned()]),
             }
         }
         position
@@ -117,7 +117,7 @@ impl Builder<'_> {
         if let (Some(op), None) = (operator, fixed) {
             return self.apply_operator(op, args, span, want);
         }
-        let Some(args) = self.to_parameters(f, fixed, args, span, want) else { return self.bad(span) };
+        let Some(args) = self.fit_parameters(f, fixed, args, span, want) else { return self.bad(span) };
         if let Some(op) = operator {
             return self.apply_operator(op, args.into_iter().map(Operand::fixed).collect(), span, fixed);
         }
@@ -134,7 +134,7 @@ impl Builder<'_> {
     }
 
     /// Every argument in the type of its parameter.
-    fn to_parameters(
+    fn fit_parameters(
         &mut self,
         f: &Function,
         fixed: Option<TypeId>,
@@ -156,8 +156,8 @@ impl Builder<'_> {
                     let to = self.elem(e);
                     self.fit(arg, to)
                 }
-                Pattern::T(_) => self.to_common(arg, common?),
-                Pattern::Own(group) => self.to_own(f, group, arg, common)?,
+                Pattern::T(_) => self.fit_common(arg, common?),
+                Pattern::Own(group) => self.fit_own(f, group, arg, common)?,
             };
             if e.ty == self.error {
                 return None;
@@ -168,7 +168,7 @@ impl Builder<'_> {
     }
 
     /// Strings keep their own capacity.
-    fn to_common(&mut self, arg: Operand, common: TypeId) -> Expr {
+    fn fit_common(&mut self, arg: Operand, common: TypeId) -> Expr {
         if self.is_string(common) {
             let text = self.as_string(arg.clone());
             if self.is_string(text.expr.ty) {
@@ -179,7 +179,7 @@ impl Builder<'_> {
     }
 
     /// A number of its own type: LINT, or LREAL beside a duration, or the type of the base of EXPT.
-    fn to_own(&mut self, f: &Function, group: Generic, arg: Operand, common: Option<TypeId>) -> Option<Expr> {
+    fn fit_own(&mut self, f: &Function, group: Generic, arg: Operand, common: Option<TypeId>) -> Option<Expr> {
         let arg = self.decay(arg);
         if let (Lowering::Inline(Intrinsic::Expt), Some(base)) = (f.lowering, common) {
             return self.exponent(arg, base);
@@ -188,7 +188,7 @@ impl Builder<'_> {
         match (arg.flex, self.elementary(arg.expr.ty)) {
             (Flex::Int { .. }, _) => Some(self.fit(arg, lint)),
             (Flex::Real, _) if group != Generic::AnyInt => Some(self.fit(arg, lreal)),
-            (Flex::Fixed, Some(e)) if e.is_int() => Some(self.to_lint(arg.expr)),
+            (Flex::Fixed, Some(e)) if e.is_int() => Some(self.as_lint(arg.expr)),
             (Flex::Fixed, Some(Elementary::Lreal)) if group != Generic::AnyInt => Some(arg.expr),
             (Flex::Fixed, Some(Elementary::Real)) if group != Generic::AnyInt => {
                 Some(self.wrap(Conversion::Real, arg.expr, lreal))

@@ -37,7 +37,7 @@ fn parts(e: &Expr) -> Vec<&Expr> {
 
 fn indices(place: &Place) -> Vec<&Expr> {
     let step = |s| match s {
-        &Step::Index(ref list) => list.iter().collect(),
+        Step::Index(list) => list.iter().collect(),
         Step::Character(e) => vec![&**e],
         Step::Field(_) | Step::Part { .. } => vec![],
     };

@@ -5,12 +5,15 @@ use crate::hir::model::*;
 use crate::mir::model::*;
 use takt_image::Elementary;
 
+/// Labels of a branch, and its statements.
+type Arm = (Vec<(i128, i128)>, Vec<Stmt>);
+
 /// Ranges up to this many values are taken into the switch.
 const SMALL: i128 = 8;
 
 impl Unit<'_, '_> {
     /// CASE statement (§5.5).
-    pub fn case(&mut self, selector: &Expr, arms: &[(Vec<(i128, i128)>, Vec<Stmt>)], otherwise: &[Stmt]) {
+    pub fn case(&mut self, selector: &Expr, arms: &[Arm], otherwise: &[Stmt]) {
         let e = self.hir.elementary(selector.ty).expect("a selector is a scalar");
         let value = self.value(selector);
         let done = self.f.block();

@@ -4,11 +4,12 @@
 use super::init::{Chunks, constant};
 use crate::hir::model::*;
 use std::collections::{BTreeMap, HashMap};
+use std::ops::Range;
 use takt_base::index::IndexVec;
 use takt_base::{Code, Diag, SourceId, Span};
 use takt_image::image::{Chunk, Place as ImagePlace, Symbol};
 use takt_image::memory::{FRAME_BYTES, MAX_MEMORY};
-use takt_image::{Elementary, MemoryMap, TypeId};
+use takt_image::{Elementary, MemoryMap, Type, TypeId, TypeTable};
 
 /// Places of everything that lives as long as the program.
 pub struct Data {
@@ -20,8 +21,9 @@ pub struct Data {
     pool: HashMap<Vec<u8>, u32>,
     /// Initial contents of globals and instances, then of the pool.
     chunks: Chunks,
-    /// First byte of the data area.
-    pub start: u32,
+    /// Offsets between which all global variables with function blocks in them lie.
+    pub named_instances: Range<u64>,
+    start: u32,
     next: u64,
 }
 
@@ -41,6 +43,7 @@ impl Data {
             instances: Vec::new(),
             pool: HashMap::new(),
             chunks: Chunks::default(),
+            named_instances: 0..0,
             start,
             next: start as u64,
         };
@@ -58,6 +61,10 @@ impl Data {
 
     fn global(&mut self, hir: &Hir, g: &Global) -> Result<ImagePlace, Diag> {
         let offset = self.reserve(hir, g.ty, g.span, &g.name)?;
+        if has_instance(&hir.types, g.ty) {
+            let first = if self.named_instances.is_empty() { offset as u64 } else { self.named_instances.start };
+            self.named_instances = first..self.next;
+        }
         constant(&hir.types, g.ty, &g.init, &mut |at, bytes| self.chunks.put(offset + at, bytes));
         Ok(ImagePlace::Byte(offset))
     }
@@ -105,6 +112,16 @@ impl Data {
         let [i, q, m] = hir.image_bytes;
         let size = u32::try_from(self.next - self.start as u64).ok()?;
         Some((MemoryMap::new(i, q, m, size, FRAME_BYTES)?, self.chunks.finish()))
+    }
+}
+
+/// True if a function block is in a variable of this type.
+fn has_instance(types: &TypeTable, ty: TypeId) -> bool {
+    match types.get(ty) {
+        Type::Instance(_) => true,
+        Type::Array { element, .. } => has_instance(types, *element),
+        Type::Struct(r) => r.fields.iter().any(|f| has_instance(types, f.ty)),
+        _ => false,
     }
 }
 

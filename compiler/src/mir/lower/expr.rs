@@ -157,7 +157,7 @@ impl Unit<'_, '_> {
         match &e.kind {
             ExprKind::Const(c) => here(self.pooled(e.ty, c, e.span)),
             ExprKind::Load(p) => here(self.memory(p)),
-            ExprKind::Convert(Conversion::String, a) => self.to_string(a, capacity, unit),
+            ExprKind::Convert(Conversion::String, a) => self.string_of(a, capacity, unit),
             ExprKind::Intrinsic(i, args) => match self.intrinsic(*i, args, e.ty) {
                 Value::Text(t) => t,
                 _ => unreachable!("an intrinsic with a string result"),
@@ -175,7 +175,7 @@ impl Unit<'_, '_> {
     }
 
     /// STRING of another capacity, or a CHAR as a string.
-    fn to_string(&mut self, a: &Expr, capacity: u32, unit: u32) -> Text {
+    fn string_of(&mut self, a: &Expr, capacity: u32, unit: u32) -> Text {
         if let Shape::Text { .. } = self.shape(a.ty) {
             let text = self.text(a);
             return self.cut(text, capacity);

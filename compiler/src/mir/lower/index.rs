@@ -34,6 +34,9 @@ impl Unit<'_, '_> {
         let line = self.at_line(index.span);
         let proven = self.interval(index).is_some_and(|(i, j)| inside(i, dim) && inside(j, dim));
         let value = self.index_value(index);
+        if !proven && dim.low < 0 && self.is_ulint(index) {
+            self.no_large_unsigned(value, dim);
+        }
         let from_low = if dim.low == 0 { value } else { self.f.binary_const(BinaryOp::Sub, value, dim.low as i64) };
         if !proven {
             let outside = self.f.compare_const(Compare::UGe, from_low, dim.len() as i64);
@@ -50,6 +53,18 @@ impl Unit<'_, '_> {
         let value = self.value(index);
         let fits = e.bytes() < 4 || (e.bytes() == 4 && e.is_signed_storage());
         self.f.resize(value, if fits { Scalar::I32 } else { Scalar::I64 }, e.is_signed_storage())
+    }
+
+    /// True for a ULINT that was converted to LINT, where its upper half became negative.
+    fn is_ulint(&self, index: &Expr) -> bool {
+        let ExprKind::Convert(Conversion::Integer, inner) = &index.kind else { return false };
+        self.hir.elementary(inner.ty).is_some_and(|e| e.bytes() == 8 && !e.is_signed_storage())
+    }
+
+    fn no_large_unsigned(&mut self, value: Local, dim: &Dim) {
+        let end = (dim.high as i64 + 1).max(0);
+        let outside = self.f.compare_const(Compare::UGe, value, end);
+        self.f.trap_if(Trap::Index, outside);
     }
 
     /// `start + bytes`, which is within the array.

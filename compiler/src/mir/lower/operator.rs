@@ -72,9 +72,9 @@ impl Unit<'_, '_> {
 
     /// `x ** y`, in f64.
     pub fn power(&mut self, x: Operand, y: Operand, result: Elementary) -> Local {
-        let args = [(self.to_f64(x), Elementary::Lreal), (self.to_f64(y), Elementary::Lreal)];
+        let args = [(self.as_f64(x), Elementary::Lreal), (self.as_f64(y), Elementary::Lreal)];
         let power = self.native_scalar("EXPT_LREAL", &args, Elementary::Lreal);
-        self.from_f64(power, result)
+        self.narrow_f64(power, result)
     }
 
     /// Comparison of two values of one type; `e` is `None` for strings.
@@ -102,7 +102,7 @@ impl Unit<'_, '_> {
     }
 
     /// A number as f64.
-    pub fn to_f64(&mut self, x: Operand) -> Local {
+    pub fn as_f64(&mut self, x: Operand) -> Local {
         match x.e {
             Elementary::Lreal => x.local,
             Elementary::Real => self.f.convert(Convert::Float, Scalar::F64, x.local),
@@ -110,7 +110,7 @@ impl Unit<'_, '_> {
         }
     }
 
-    fn from_f64(&mut self, x: Local, e: Elementary) -> Local {
+    fn narrow_f64(&mut self, x: Local, e: Elementary) -> Local {
         match e {
             Elementary::Lreal => x,
             Elementary::Real => self.f.convert(Convert::Float, Scalar::F32, x),

@@ -24,7 +24,7 @@ impl Unit<'_, '_> {
     }
 
     fn scale_by_real(&mut self, op: Operator, time: Local, factor: Operand) -> Local {
-        let factor = self.to_f64(factor);
+        let factor = self.as_f64(factor);
         let wide = self.f.convert(Convert::SignedToFloat, Scalar::F64, time);
         let scaled = self.f.binary(if op == Operator::Mul { BinaryOp::FMul } else { BinaryOp::FDiv }, wide, factor);
         let nearest = self.f.unary(UnaryOp::FNearest, scaled);

@@ -89,7 +89,7 @@ impl<'p, 'h> Unit<'p, 'h> {
     pub fn new(program: &'p mut Program<'h>, pou: Option<PouId>, start: Span) -> Self {
         let mut f = Builder::new(program.lines.of(start));
         let exit = f.block();
-        f.regions.data_start = program.data.start as u64;
+        f.regions.named_instances = program.data.named_instances.clone();
         Unit {
             hir: program.hir,
             program,
@@ -130,7 +130,9 @@ impl<'p, 'h> Unit<'p, 'h> {
         let this = self.param(Scalar::I32);
         let size = pou.instance.map_or(0, |ty| self.hir.types.layout(ty).size);
         self.f.regions.set(this, Region { object: Object::Instance, low: 0, high: size as u64, exact: true });
-        self.f.regions.instance_is_apart = pou.kind == PouKind::Program;
+        if pou.kind == PouKind::Program {
+            self.f.regions.named_instances = 0..0;
+        }
         at(this)
     }
 

@@ -6,7 +6,7 @@ use super::*;
 fn promoted(source: &str, more: &[(u32, Region)]) -> String {
     let mut module = text::parse(source).expect("a module");
     let mut regions = Regions::default();
-    regions.data_start = 64;
+    regions.named_instances = 64..1000;
     regions.set(Local(0), Region { object: Object::Instance, low: 0, high: 256, exact: true });
     more.iter().for_each(|(local, region)| regions.set(Local(*local), *region));
     let natives = module.natives.as_slice().to_vec();
