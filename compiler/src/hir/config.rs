@@ -42,7 +42,7 @@ impl<'a> Builder<'a> {
         let programs: Vec<_> = mine.map(|(pou, p)| instance(p.name.clone(), pou)).collect();
         if !programs.is_empty() {
             let interval = Some(DEFAULT_INTERVAL);
-            self.hir.tasks.push(Task { name: DEFAULT_TASK.fit_owned(), priority: 0, interval, single: None, programs });
+            self.hir.tasks.push(Task { name: DEFAULT_TASK.to_owned(), priority: 0, interval, single: None, programs });
         }
     }
 
@@ -188,7 +188,7 @@ impl<'a> Builder<'a> {
         let found = self.hir.tasks.iter().position(|t| t.name == BACKGROUND_TASK);
         let at = found.unwrap_or_else(|| {
             let priority = u32::MAX;
-            let task = Task { name: BACKGROUND_TASK.fit_owned(), priority, interval: None, single: None, programs: Vec::new() };
+            let task = Task { name: BACKGROUND_TASK.to_owned(), priority, interval: None, single: None, programs: Vec::new() };
             self.hir.tasks.push(task);
             self.hir.tasks.len() - 1
         });

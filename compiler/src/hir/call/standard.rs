@@ -79,10 +79,10 @@ impl Builder<'_> {
             match found {
                 _ if eno => self.unsupported(formal.span, "EN and ENO", "test the condition with IF around the call"),
                 Found::Function { function, .. } => {
-                    let known = function.params.iter().map(|p| p.name.fit_owned()).collect();
+                    let known = function.params.iter().map(|p| p.name.to_owned()).collect();
                     self.unknown(Code::UnknownParameter, formal, known);
                 }
-                Found::Conversion { .. } => self.unknown(Code::UnknownParameter, formal, vec!["IN".fit_owned()]),
+                Found::Conversion { .. } => self.unknown(Code::UnknownParameter, formal, vec!["IN".to_owned()]),
             }
         }
         position
