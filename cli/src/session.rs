@@ -7,8 +7,8 @@ use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 use std::sync::Arc;
-use takt_base::{Code, Nanos, Sources};
-use takt_compiler::driver::{self, Compilation};
+use takt_base::{Code, Nanos};
+use takt_compiler::driver::{self, Compilation, File};
 use takt_compiler::mir::{Interpreter, model::Module};
 use takt_image::{Engine, Image, encode};
 use takt_motion::machine::{Background, Machine, MachineConfig};
@@ -40,17 +40,18 @@ pub enum EngineKind {
 }
 
 /// Parses, checks and compiles; messages stay in the answer.
-pub fn compile(project: &Project) -> Result<(Compilation, Sources), Problem> {
+pub fn compile(project: &Project) -> Result<Compilation, Problem> {
     let machine = project::machine(&project.keys)?;
-    let mut sources = Sources::new();
-    let input = driver::Project {
+    let interval = project.keys.task.interval.as_deref();
+    let declarations = File { name: "machine.st".into(), bytes: Machine::declarations(&machine).into_bytes(), library: true };
+    let sources = project.sources.iter().map(|(name, bytes)| File { name: name.clone(), bytes: bytes.clone(), library: false });
+    Ok(driver::compile(driver::Project {
         name: project.name.clone(),
-        default_interval: project::time("task.interval", project.keys.task.interval.as_deref(), driver::DEFAULT_INTERVAL)?,
-        library: vec![("machine.st".to_owned(), Machine::declarations(&machine))],
-        sources: project.sources.clone(),
-    };
-    let compilation = driver::compile(input, &mut sources);
-    Ok((compilation, sources))
+        files: std::iter::once(declarations).chain(sources).collect(),
+        attachments: attachments(project),
+        interval: interval.map(|t| project::time("task.interval", Some(t), Nanos::ZERO)).transpose()?,
+        native: true,
+    }))
 }
 
 impl Session {
@@ -63,10 +64,9 @@ impl Session {
         }
         let project = project::load(paths)?;
         let machine = project::machine(&project.keys)?;
-        let (compilation, sources) = compile(&project)?;
-        diagnostics::print(&compilation.diags, &sources);
-        let Some(mut image) = compilation.image else { return Ok(None) };
-        image.attachments = attachments(&project);
+        let compilation = compile(&project)?;
+        diagnostics::print(&compilation.diags, &compilation.sources);
+        let Some(image) = compilation.image else { return Ok(None) };
         let module = compilation.module.map(Arc::new);
         Ok(Some(Self { name: project.name, image, module, keys: project.keys, machine, root: project.root }))
     }

@@ -21,7 +21,7 @@ pub struct Args {
 pub fn run(args: Args) -> Status {
     let result = project::load(&args.project).and_then(|p| session::compile(&p));
     let (diags, sources) = match result {
-        Ok((compilation, sources)) => (compilation.diags, sources),
+        Ok(compilation) => (compilation.diags, compilation.sources),
         Err(Problem::Diags(diags, sources)) => (diags, sources),
         Err(problem) => {
             problem.print();
