@@ -14,7 +14,9 @@ pub const QUEUE: usize = 1024;
 /// Elements that must wait before a program starts, unless it is shorter.
 const PRIMED: usize = 512;
 /// Elements kept for the path deviation.
-pub const HISTORY: usize = 16;
+pub const HISTORY: usize = 64;
+/// Length of path behind the current position in which the actual position is looked for, and the least number of elements.
+const BEHIND: (f64, usize) = (5.0, 4);
 
 /// What the operator and the PLC program want, as shares of the programmed speed.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -182,11 +184,19 @@ impl PathExecutor {
         self.dwell_s > 0.0
     }
 
-    /// Distance of a point from the path round the current position, in mm.
+    /// Distance of a point from the path at and behind the current position, in mm; infinite without a path.
     pub fn deviation(&self, p: &Point) -> f64 {
         let current = self.current.as_ref().map(|c| &c.segment);
-        let near = self.history.iter().flatten().chain(current);
-        near.map(|s| s.path.distance_to(p)).fold(f64::INFINITY, f64::min)
+        let newest_first = (1..=HISTORY).map_while(|k| self.history[(self.history_next + HISTORY - k) % HISTORY].as_ref());
+        let (mut nearest, mut behind) = (f64::INFINITY, 0.0);
+        for (n, segment) in current.into_iter().chain(newest_first).enumerate() {
+            nearest = nearest.min(segment.path.distance_to(p));
+            behind += segment.path.length;
+            if n >= BEHIND.1 && behind > BEHIND.0 {
+                break;
+            }
+        }
+        nearest
     }
 
     /// Moves on by `dt` seconds, or up to the next action that is not for the path.

@@ -297,3 +297,70 @@ fn safe_stop() {
     assert_eq!((rig.state(), rig.velocity()), (AxisState::Disabled, 0.0));
     assert!(!rig.machine.core().axes[0].has_power());
 }
+
+/// S03, R10: endless motion; another one takes over; a short Execute changes nothing.
+#[test]
+fn s03_move_velocity() {
+    let mut rig = powered();
+    let (a, b) = (rig.fb("MC_MoveVelocity"), rig.fb("MC_MoveVelocity"));
+    for (fb, v) in [(&a, 50.0), (&b, 20.0)] {
+        rig.lreal(fb, "Velocity", v);
+        rig.lreal(fb, "Acceleration", 10.0);
+        rig.lreal(fb, "Deceleration", 10.0);
+        rig.int(fb, "Direction", 1);
+    }
+    rig.set(&a, "Execute", true);
+    let cycles = rig.until(&[&a, &b], &a, "InVelocity", 6000) as i64;
+    assert!((cycles - 5000).abs() <= 2, "{cycles}");
+    rig.set(&a, "Execute", false);
+    rig.run(&[&a, &b], 3000);
+    assert!(rig.get(&a, "Busy") && rig.get(&a, "Active") && rig.get(&a, "InVelocity") && rig.velocity() == 50.0);
+    assert_eq!(rig.state(), AxisState::ContinuousMotion);
+    rig.set(&a, "Execute", true);
+    rig.lreal(&a, "Velocity", -50.0);
+    rig.run(&[&a, &b], 9998);
+    assert!(!rig.get(&a, "InVelocity"));
+    rig.until(&[&a, &b], &a, "InVelocity", 10);
+    assert_eq!(rig.velocity(), -50.0);
+    rig.set(&b, "Execute", true);
+    rig.run(&[&b, &a], 1);
+    assert!(rig.get(&a, "CommandAborted") && !["Busy", "Active", "InVelocity"].iter().any(|p| rig.get(&a, p)));
+    rig.until(&[&a, &b], &b, "InVelocity", 8000);
+    assert_eq!((rig.velocity(), rig.state()), (20.0, AxisState::ContinuousMotion));
+}
+
+/// S13: MC_Halt ends an endless motion through DiscreteMotion.
+#[test]
+fn s13_halt() {
+    let mut rig = powered();
+    let (a, halt) = (rig.fb("MC_MoveVelocity"), rig.fb("MC_Halt"));
+    rig.int(&a, "Direction", 1);
+    rig.lreal(&a, "Velocity", 50.0);
+    rig.lreal(&a, "Acceleration", 10.0);
+    rig.lreal(&halt, "Deceleration", 5.0);
+    rig.set(&a, "Execute", true);
+    rig.run(&[&a, &halt], 7000);
+    rig.set(&halt, "Execute", true);
+    rig.run(&[&a, &halt], 2);
+    assert!(rig.get(&a, "CommandAborted") && rig.state() == AxisState::DiscreteMotion);
+    let cycles = rig.until(&[&a, &halt], &halt, "Done", 11_000) as i64 + 2;
+    assert!((cycles - 10_000).abs() <= 2, "{cycles}");
+    assert_eq!(rig.state(), AxisState::Standstill);
+}
+
+/// An endless motion stops in front of the software limit.
+#[test]
+fn endless_motion_keeps_the_travel() {
+    let mut config = one_axis();
+    (config.axes[0].travel_max_mm, config.axes[0].a_max_mm_s2) = (100.0, 1000.0);
+    let mut rig = Rig::new(&config, Programs::new(), Background::Inline);
+    rig.power_on();
+    let a = rig.fb("MC_MoveVelocity");
+    rig.int(&a, "Direction", 1);
+    rig.lreal(&a, "Velocity", 200.0);
+    rig.set(&a, "Execute", true);
+    rig.until(&[&a], &a, "Error", 2000);
+    rig.run(&[&a], 500);
+    assert_eq!((rig.get_u16(&a, "ErrorID"), rig.state()), (Code::LimitExceeded.error_id(), AxisState::ErrorStop));
+    assert!(rig.position() <= 100.0 && rig.position() > 99.0, "{}", rig.position());
+}

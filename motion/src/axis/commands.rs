@@ -115,6 +115,23 @@ impl Axis {
         self.move_absolute(self.set.position + distance, v, a, d)
     }
 
+    /// MC_MoveVelocity: endless, at signed velocity `v`.
+    pub fn move_velocity(&mut self, v: f64, a: f64, d: f64) -> Result<CommandId, Code> {
+        let m = self.dynamics(v.abs(), a, d)?;
+        let allowed = v == 0.0 || if v > 0.0 { self.power.positive } else { self.power.negative };
+        if !allowed {
+            return Err(Code::DirectionBlocked);
+        }
+        let id = self.take(AxisEvent::MoveVelocity)?;
+        self.generator = Some(Generator::to_velocity(self.set.position, self.set.velocity, v.signum() * m.v, m));
+        Ok(id)
+    }
+
+    /// True if command `id` moves the axis at its velocity (R10).
+    pub fn is_in_velocity(&self, id: CommandId) -> bool {
+        self.outcome(id) == Outcome::Running && self.generator.as_ref().is_some_and(Generator::is_in_velocity)
+    }
+
     /// MC_Halt.
     pub fn halt(&mut self, d: f64) -> Result<CommandId, Code> {
         let m = self.dynamics(0.0, 0.0, d)?;

@@ -225,6 +225,7 @@ impl Axis {
 
     fn finish_tick(&mut self) {
         self.watch_direction();
+        self.watch_travel();
         if self.generator.as_ref().is_some_and(Generator::is_done) {
             self.generator = None;
             self.set.velocity = 0.0;
@@ -250,11 +251,24 @@ impl Axis {
         let v = self.set.velocity;
         let blocked = v > 0.0 && !self.power.positive || v < 0.0 && !self.power.negative;
         if blocked
-            && self.state == AxisState::DiscreteMotion
+            && matches!(self.state, AxisState::DiscreteMotion | AxisState::ContinuousMotion)
             && self.history.outcome(self.command, self.command) == Outcome::Running
         {
             self.end_command(Outcome::Error(Code::DirectionBlocked));
+            self.event(AxisEvent::Halt);
             self.brake(self.config.a_max_mm_s2);
+        }
+    }
+
+    /// An endless motion ends in front of the software limit, as an axis error.
+    fn watch_travel(&mut self) {
+        if self.state != AxisState::ContinuousMotion {
+            return;
+        }
+        let v = self.set.velocity;
+        let stop = self.set.position + v * self.dt + v * v.abs() / (2.0 * self.config.a_max_mm_s2);
+        if (v > 0.0 && stop > self.config.travel_max_mm) || (v < 0.0 && stop < self.config.travel_min_mm) {
+            self.fault(Code::LimitExceeded);
         }
     }
 

@@ -5,6 +5,7 @@ pub mod mc_halt;
 pub mod mc_home;
 pub mod mc_move_absolute;
 pub mod mc_move_relative;
+pub mod mc_move_velocity;
 pub mod mc_power;
 pub mod mc_read_actual_position;
 pub mod mc_read_actual_velocity;
