@@ -11,6 +11,8 @@ use takt_base::ring::Rx;
 
 /// Elements that wait behind the ring.
 pub const QUEUE: usize = 1024;
+/// Elements taken from the ring in one tick.
+const FILL: usize = 256;
 /// Elements that must wait before a program starts, unless it is shorter.
 const PRIMED: usize = 512;
 /// Elements kept for the path deviation.
@@ -134,7 +136,7 @@ impl PathExecutor {
 
     /// Takes what the look-ahead has released for `run`.
     pub fn fill(&mut self, ring: &mut Rx<Planned>, run: u32) {
-        while self.queue.len() < QUEUE {
+        for _ in 0..FILL.min(QUEUE - self.queue.len()) {
             let Some(step) = ring.pop() else { return };
             if step.run == run {
                 self.accept(step);

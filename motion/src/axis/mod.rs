@@ -4,6 +4,7 @@
 
 pub mod commands;
 pub mod generator;
+pub mod orders;
 pub mod state;
 
 pub use commands::{CommandId, Outcome};
@@ -14,6 +15,7 @@ use crate::plant::{Plant, PowerStage};
 use crate::servo::{Gains, Servo, SetPoint};
 use commands::History;
 use generator::{Dynamics, Generator};
+use orders::Queue;
 use takt_base::Code;
 
 /// What MC_Power asks for.
@@ -45,6 +47,7 @@ pub struct Axis {
     generator: Option<Generator>,
     command: CommandId,
     history: History,
+    queue: Queue,
     stop_held: bool,
     power: PowerRequest,
     stage: PowerStage,
@@ -81,6 +84,7 @@ impl Axis {
             generator: None,
             command: CommandId::NONE,
             history: History::default(),
+            queue: Queue::default(),
             stop_held: false,
             power: PowerRequest { owner: 0, enable: false, positive: true, negative: true },
             stage: PowerStage::new(config.drive_enable_delay_s),
@@ -230,13 +234,18 @@ impl Axis {
             self.generator = None;
             self.set.velocity = 0.0;
         }
+        if self.generator.as_ref().is_some_and(Generator::is_in_velocity) && self.next_order() {
+            return;
+        }
         if self.generator.is_some() || self.joined {
             return;
         }
         match self.state {
             AxisState::Homing | AxisState::DiscreteMotion => {
                 self.end_command(Outcome::Done);
-                self.event(AxisEvent::Done);
+                if !self.next_order() {
+                    self.event(AxisEvent::Done);
+                }
             }
             AxisState::Stopping => {
                 self.end_command(Outcome::Done);
@@ -254,7 +263,7 @@ impl Axis {
             && matches!(self.state, AxisState::DiscreteMotion | AxisState::ContinuousMotion)
             && self.history.outcome(self.command, self.command) == Outcome::Running
         {
-            self.end_command(Outcome::Error(Code::DirectionBlocked));
+            self.end_all(Outcome::Error(Code::DirectionBlocked));
             self.event(AxisEvent::Halt);
             self.brake(self.config.a_max_mm_s2);
         }
@@ -300,7 +309,7 @@ impl Axis {
         }
         self.error = Some(code);
         self.event(AxisEvent::Fault);
-        self.end_command(Outcome::Error(code));
+        self.end_all(Outcome::Error(code));
         if !self.joined {
             self.brake(self.config.a_max_mm_s2);
         }

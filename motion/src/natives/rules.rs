@@ -116,7 +116,10 @@ pub fn execute(core: &mut Core, f: &mut Frame, pins: &ExecutePins, number: u16, 
                 f.set_u32(pins.command, command);
                 f.set_u16(pins.reference, number);
                 f.set_bool(pins.busy, true);
-                f.set_bool(pins.active, true);
+                // What ends at once is shown with the next call.
+                let target = target.unwrap_or_default();
+                let waits = (action.poll)(core, target, command);
+                f.set_bool(pins.active, waits.active || waits.outcome != Outcome::Running);
             }
             Err(code) => pins.fail(f, code),
         }

@@ -2,6 +2,7 @@
 //! Runs: cyclic. InVelocity takes the place of Done (R10).
 
 use crate::axis::CommandId;
+use crate::axis::orders::Order;
 use crate::natives::rules::{self, Action};
 use crate::natives::{Core, Frame};
 use crate::{block, execute_pins};
@@ -42,17 +43,16 @@ fn call(core: &mut Core, f: &mut Frame) {
 
 fn start(core: &mut Core, f: &mut Frame, axis: usize) -> Result<u32, Code> {
     super::supported(f.i16(P::BufferMode), f.lreal(P::Jerk), f.bool(P::ContinuousUpdate))?;
-    let axis = &mut core.axes[axis];
     let sign = match f.i16(P::Direction) {
         POSITIVE => 1.0,
         NEGATIVE => -1.0,
-        CURRENT if axis.set_velocity() < 0.0 => -1.0,
+        CURRENT if core.axes[axis].set_velocity() < 0.0 => -1.0,
         CURRENT => 1.0,
         // The shortest way to nowhere.
         _ => return Err(Code::ParameterOutOfRange),
     };
-    let (v, a, d) = (f.lreal(P::Velocity), f.lreal(P::Acceleration), f.lreal(P::Deceleration));
-    axis.move_velocity(sign * v, a, d).map(|id| id.0)
+    let wanted = super::wanted(f, P::Velocity, P::Acceleration, P::Deceleration);
+    super::order(core, axis, Order::Velocity(sign * wanted.v, wanted), f.i16(P::BufferMode))
 }
 
 /// MC_DIRECTION.
