@@ -124,6 +124,30 @@ fn wild_numbers() {
     }
 }
 
+/// Any path as reference pulses: refused, or made step by step without overflow.
+#[test]
+fn wild_pulses() {
+    use takt_motion::geometry::Path;
+    use takt_motion::pulse::dda::{Dda, Preload};
+    use takt_motion::pulse::pulse_move;
+    let mut made = 0;
+    for seed in 0..20_000 {
+        let mut r = Random(seed);
+        let whole = r.below(2) == 0;
+        let number = |r: &mut Random| if whole { r.between(-50.0, 50.0).round() } else { wild(r) };
+        let start = [number(&mut r), number(&mut r), 0.0, 0.0, 0.0, 0.0];
+        let end = [number(&mut r), number(&mut r), number(&mut r), 0.0, 0.0, 0.0];
+        let centre = [number(&mut r), number(&mut r)];
+        let turns = [0, 1, -1, 3, i32::MAX][r.below(5)];
+        let path = if r.below(2) == 0 { Path::line(start, end) } else { Path::arc(start, end, 0, 1, centre, turns) };
+        if let Ok(m) = pulse_move(&path, r.below(4) == 0, 10.0, 1.0) {
+            let mut dda = Dda::new(&m, [Preload::Zero, Preload::Half][r.below(2)]);
+            made += (0..2000).map_while(|_| dda.step()).count();
+        }
+    }
+    assert!(made > 10_000);
+}
+
 /// The look-ahead keeps up: a hundred thousand blocks are planned and sampled in seconds, also without optimisation.
 #[test]
 fn many_blocks() {

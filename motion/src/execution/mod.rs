@@ -3,9 +3,11 @@
 //! Invariant: the path speed is never above the planned one. Without hold and override it is the planned one; they cap it, and the
 //! path is kept with at most the path acceleration of each element. From: R1-116, R1-165, CM-23, scenario S40.
 
+mod ramp;
+
 use crate::geometry::Point;
-use crate::profile::Phase;
 use crate::segment::{Action, Mark, Planned, Segment};
+use ramp::{Ramp, meets};
 use std::collections::VecDeque;
 use takt_base::ring::Rx;
 
@@ -419,44 +421,6 @@ impl PathExecutor {
 
 /// Length below which the end of an element is reached: rounding of the ramp.
 const END_MM: f64 = 1e-12;
-
-/// True if the square of a speed is that of the plan, but for rounding.
-fn meets(w2: f64, plan_v2: f64) -> bool {
-    w2 >= plan_v2 * (1.0 - 1e-12)
-}
-
-/// A stretch of constant path acceleration: to the end of the phase, to the plan, to the cap or to rest.
-struct Ramp {
-    length: f64,
-    v_end: f64,
-    to_phase_end: bool,
-}
-
-impl Ramp {
-    fn new(w: f64, a: f64, cap: f64, s: f64, phase: &Phase) -> Self {
-        let mut ramp = Ramp { length: phase.end - s, v_end: 0.0, to_phase_end: true };
-        ramp.v_end = (w * w + 2.0 * a * ramp.length).max(0.0).sqrt();
-        if a > phase.a {
-            let meet = (phase.v2(s) - w * w) / (2.0 * (a - phase.a));
-            ramp.shorten(meet.max(0.0), phase.v2(s + meet.max(0.0)).sqrt());
-        }
-        if a != 0.0 {
-            ramp.shorten((cap * cap - w * w) / (2.0 * a), cap);
-        }
-        ramp
-    }
-
-    fn shorten(&mut self, length: f64, v_end: f64) {
-        if length < self.length {
-            *self = Ramp { length, v_end, to_phase_end: false };
-        }
-    }
-
-    fn time(&self, w: f64) -> f64 {
-        let speeds = w + self.v_end;
-        if speeds > 0.0 { 2.0 * self.length / speeds } else { 0.0 }
-    }
-}
 
 #[allow(clippy::large_enum_variant)] // as above
 enum Next {
