@@ -185,6 +185,20 @@ fn power_off_during_a_program() {
     assert_eq!((rig.cnc(), rig.state()), (CncState::NotReady, AxisState::Disabled));
 }
 
+/// Power taken from the axis that stands while the other one brakes: it holds its place until the path stands.
+#[test]
+fn an_axis_at_rest_keeps_its_power_while_the_path_brakes() {
+    let (mut rig, power) = s39_rig();
+    let run = rig.start("s39");
+    rig.run(&[&power[0], &power[1], &run], 3000);
+    rig.set(&power[1], "Enable", false);
+    rig.run(&[&power[0], &power[1], &run], 50);
+    assert!(rig.velocity() > 0.0 && rig.machine.core().axes[1].has_power());
+    rig.run(&[&power[0], &power[1], &run], 200);
+    assert!(rig.velocity() == 0.0 && !rig.machine.core().axes[1].has_power());
+    assert_eq!((rig.cnc(), rig.state()), (CncState::NotReady, AxisState::Standstill));
+}
+
 fn wrong_program() -> Vec<Step> {
     let mut p = Program::default();
     p.feed(6000.0).line(50.0, 0.0);

@@ -169,7 +169,8 @@ impl Axis {
 
     fn power_tick(&mut self) {
         let on_before = self.stage.is_on();
-        let braking = self.is_moving() && self.state != AxisState::Disabled;
+        // An axis of a channel keeps its power until the path stands, even where it does not move itself.
+        let braking = (self.is_moving() || self.joined) && self.state != AxisState::Disabled;
         self.stage.step(self.power.enable || braking, self.dt);
         if self.stage.has_fault() && self.power.enable || (on_before && !self.stage.is_on() && self.power.enable) {
             self.fault(Code::DriveFault);
