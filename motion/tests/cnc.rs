@@ -173,6 +173,31 @@ fn stop_of_an_axis_aborts_the_channel() {
     assert!(rig.get(&run, "CommandAborted") && rig.velocity() == 0.0 && rig.state() == AxisState::Stopping);
 }
 
+/// A program may be started in the scan that sees Status and Done; and again in the scan that sees the end of the last run.
+#[test]
+fn starts_as_soon_as_the_program_can_see_it() {
+    let mut p = Program::default();
+    p.feed(6000.0).line(1.0, 0.0).line(0.0, 0.0);
+    let mut rig = Rig::new(&two_axes(false), programs(&[("short", p.end())]), Background::Inline);
+    let power: Vec<_> = (1..=2).map(|i| rig.axis_fb("MC_Power", i)).collect();
+    let (load, run) = (rig.fb("CNC_LoadProgram"), rig.fb("CNC_Run"));
+    rig.text(&load, "FileName", "short");
+    rig.set(&load, "Execute", true);
+    power.iter().for_each(|fb| rig.set(fb, "Enable", true));
+    let mut runs = 0;
+    for _ in 0..1000 {
+        power.iter().for_each(|fb| rig.call(fb));
+        rig.call(&load);
+        let go = power.iter().all(|fb| rig.get(fb, "Status")) && rig.get(&load, "Done") && !rig.get(&run, "Done");
+        rig.set(&run, "Execute", go);
+        rig.call(&run);
+        assert!(!rig.get(&run, "Error"), "16#{:04X}", rig.get_u16(&run, "ErrorID"));
+        runs += usize::from(rig.get(&run, "Done"));
+        rig.tick();
+    }
+    assert!(runs >= 3, "{runs}");
+}
+
 /// Power lost in the middle of a program: the channel aborts on the path, then the axes are Disabled.
 #[test]
 fn power_off_during_a_program() {
@@ -183,6 +208,20 @@ fn power_off_during_a_program() {
     rig.run(&[&power[0], &power[1], &run], 300);
     assert!(rig.get(&run, "CommandAborted"));
     assert_eq!((rig.cnc(), rig.state()), (CncState::NotReady, AxisState::Disabled));
+}
+
+/// Power taken from the axis that stands while the other one brakes: it holds its place until the path stands.
+#[test]
+fn an_axis_at_rest_keeps_its_power_while_the_path_brakes() {
+    let (mut rig, power) = s39_rig();
+    let run = rig.start("s39");
+    rig.run(&[&power[0], &power[1], &run], 3000);
+    rig.set(&power[1], "Enable", false);
+    rig.run(&[&power[0], &power[1], &run], 50);
+    assert!(rig.velocity() > 0.0 && rig.machine.core().axes[1].has_power());
+    rig.run(&[&power[0], &power[1], &run], 200);
+    assert!(rig.velocity() == 0.0 && !rig.machine.core().axes[1].has_power());
+    assert_eq!((rig.cnc(), rig.state()), (CncState::NotReady, AxisState::Standstill));
 }
 
 fn wrong_program() -> Vec<Step> {

@@ -83,8 +83,8 @@ fn run(steps: Vec<Step>, config: &PlanConfig, r: &mut Random) -> PlanReport {
     let mut executor = PathExecutor::new(config.start);
     let (mut meter, mut report) = (Meter::new(config), PlanReport::default());
     let mut demand = Demand::default();
-    executor.fill(&mut rx, 0);
     for tick in 0.. {
+        executor.fill(&mut rx, 0);
         assert!(tick < 10_000_000, "does not end");
         if r.below(40) == 0 {
             demand.hold = r.below(2) == 0;

@@ -233,7 +233,7 @@ fn parameters_are_checked() {
     assert_eq!(id(&mut rig, 1.0, 10.0, -1.0), refused(Code::ParameterOutOfRange));
     let buffered = rig.fb("MC_MoveAbsolute");
     rig.motion(&buffered, 1.0, 1.0, 1.0);
-    rig.int(&buffered, "BufferMode", 1);
+    rig.int(&buffered, "BufferMode", 2);
     rig.set(&buffered, "Execute", true);
     rig.run(&[&buffered], 1);
     assert_eq!(rig.get_u16(&buffered, "ErrorID"), Code::UnsupportedOption.error_id());
@@ -296,4 +296,156 @@ fn safe_stop() {
     rig.run(&[&power, &a], 300);
     assert_eq!((rig.state(), rig.velocity()), (AxisState::Disabled, 0.0));
     assert!(!rig.machine.core().axes[0].has_power());
+}
+
+/// S03, R10: endless motion; another one takes over; a short Execute changes nothing.
+#[test]
+fn s03_move_velocity() {
+    let mut rig = powered();
+    let (a, b) = (rig.fb("MC_MoveVelocity"), rig.fb("MC_MoveVelocity"));
+    for (fb, v) in [(&a, 50.0), (&b, 20.0)] {
+        rig.lreal(fb, "Velocity", v);
+        rig.lreal(fb, "Acceleration", 10.0);
+        rig.lreal(fb, "Deceleration", 10.0);
+        rig.int(fb, "Direction", 1);
+    }
+    rig.set(&a, "Execute", true);
+    let cycles = rig.until(&[&a, &b], &a, "InVelocity", 6000) as i64;
+    assert!((cycles - 5000).abs() <= 2, "{cycles}");
+    rig.set(&a, "Execute", false);
+    rig.run(&[&a, &b], 3000);
+    assert!(rig.get(&a, "Busy") && rig.get(&a, "Active") && rig.get(&a, "InVelocity") && rig.velocity() == 50.0);
+    assert_eq!(rig.state(), AxisState::ContinuousMotion);
+    rig.set(&a, "Execute", true);
+    rig.lreal(&a, "Velocity", -50.0);
+    rig.run(&[&a, &b], 9998);
+    assert!(!rig.get(&a, "InVelocity"));
+    rig.until(&[&a, &b], &a, "InVelocity", 10);
+    assert_eq!(rig.velocity(), -50.0);
+    rig.set(&b, "Execute", true);
+    rig.run(&[&b, &a], 1);
+    assert!(rig.get(&a, "CommandAborted") && !["Busy", "Active", "InVelocity"].iter().any(|p| rig.get(&a, p)));
+    rig.until(&[&a, &b], &b, "InVelocity", 8000);
+    assert_eq!((rig.velocity(), rig.state()), (20.0, AxisState::ContinuousMotion));
+}
+
+/// S13: MC_Halt ends an endless motion through DiscreteMotion.
+#[test]
+fn s13_halt() {
+    let mut rig = powered();
+    let (a, halt) = (rig.fb("MC_MoveVelocity"), rig.fb("MC_Halt"));
+    rig.int(&a, "Direction", 1);
+    rig.lreal(&a, "Velocity", 50.0);
+    rig.lreal(&a, "Acceleration", 10.0);
+    rig.lreal(&halt, "Deceleration", 5.0);
+    rig.set(&a, "Execute", true);
+    rig.run(&[&a, &halt], 7000);
+    rig.set(&halt, "Execute", true);
+    rig.run(&[&a, &halt], 2);
+    assert!(rig.get(&a, "CommandAborted") && rig.state() == AxisState::DiscreteMotion);
+    let cycles = rig.until(&[&a, &halt], &halt, "Done", 11_000) as i64 + 2;
+    assert!((cycles - 10_000).abs() <= 2, "{cycles}");
+    assert_eq!(rig.state(), AxisState::Standstill);
+}
+
+/// An endless motion stops in front of the software limit.
+#[test]
+fn endless_motion_keeps_the_travel() {
+    let mut config = one_axis();
+    (config.axes[0].travel_max_mm, config.axes[0].a_max_mm_s2) = (100.0, 1000.0);
+    let mut rig = Rig::new(&config, Programs::new(), Background::Inline);
+    rig.power_on();
+    let a = rig.fb("MC_MoveVelocity");
+    rig.int(&a, "Direction", 1);
+    rig.lreal(&a, "Velocity", 200.0);
+    rig.set(&a, "Execute", true);
+    rig.until(&[&a], &a, "Error", 2000);
+    rig.run(&[&a], 500);
+    assert_eq!((rig.get_u16(&a, "ErrorID"), rig.state()), (Code::LimitExceeded.error_id(), AxisState::ErrorStop));
+    assert!(rig.position() <= 100.0 && rig.position() > 99.0, "{}", rig.position());
+}
+
+/// S02, S24: a buffered move waits for Done of the one before; both show Done for one call.
+#[test]
+fn s02_buffered() {
+    let mut rig = powered();
+    let (a, b) = (rig.fb("MC_MoveAbsolute"), rig.fb("MC_MoveAbsolute"));
+    rig.motion(&a, 1000.0, 100.0, 100.0);
+    rig.motion(&b, 1200.0, 50.0, 100.0);
+    rig.int(&b, "BufferMode", 1);
+    rig.set(&a, "Execute", true);
+    let (mut done_a, mut done_b, mut active_b) = (Vec::new(), Vec::new(), None);
+    for t in 0..16_000i64 {
+        match t {
+            1 => rig.set(&a, "Execute", false),
+            2000 => rig.set(&b, "Execute", true),
+            3000 => rig.set(&b, "Execute", false),
+            _ => {}
+        }
+        rig.call(&a);
+        rig.call(&b);
+        assert!(!rig.get(&a, "CommandAborted") && !rig.get(&b, "CommandAborted"));
+        if rig.get(&a, "Done") {
+            done_a.push(t);
+        }
+        if rig.get(&b, "Done") {
+            done_b.push(t);
+        }
+        if rig.get(&b, "Active") {
+            active_b = active_b.or(Some(t));
+        }
+        assert!(!(2000..=15_400).contains(&t) || rig.get(&b, "Busy"));
+        rig.tick();
+    }
+    let near = |got: i64, want: i64| assert!((got - want).abs() <= 2, "{got} is not {want}");
+    assert_eq!((done_a.len(), done_b.len()), (1, 1));
+    near(done_a[0], 11_000);
+    assert_eq!(active_b, Some(done_a[0]));
+    near(done_b[0], 15_500);
+    assert_eq!((rig.position(), rig.state()), (1200.0, AxisState::Standstill));
+}
+
+/// §2.5, S09: an aborting command clears the queue; an axis error shows on the running and on the waiting blocks.
+#[test]
+fn queue_is_cleared() {
+    for fault in [false, true] {
+        let mut rig = powered();
+        let fbs: Vec<_> = (0..3).map(|_| rig.fb("MC_MoveAbsolute")).collect();
+        for (fb, target) in fbs.iter().zip([1000.0, 2000.0, 0.0]) {
+            rig.motion(fb, target, 100.0, 100.0);
+        }
+        rig.int(&fbs[1], "BufferMode", 1);
+        rig.set(&fbs[0], "Execute", true);
+        rig.set(&fbs[1], "Execute", true);
+        let all: Vec<_> = fbs.iter().collect();
+        rig.run(&all, 4000);
+        assert!(rig.get(&fbs[1], "Busy") && !rig.get(&fbs[1], "Active"));
+        if fault {
+            rig.machine.core_mut().axes[0].set_drive_fault(true);
+        } else {
+            rig.set(&fbs[2], "Execute", true);
+        }
+        rig.run(&all, 2);
+        let pin = if fault { "Error" } else { "CommandAborted" };
+        assert!(rig.get(&fbs[0], pin) && rig.get(&fbs[1], pin), "{pin}");
+        assert_eq!(rig.get(&fbs[2], "Active"), !fault);
+    }
+}
+
+/// §2.5: 32 commands may wait; one more is refused and disturbs nothing. Each starts where the one before ended.
+#[test]
+fn queue_depth() {
+    let mut rig = powered();
+    let fbs: Vec<_> = (0..34).map(|_| rig.fb("MC_MoveRelative")).collect();
+    for fb in &fbs {
+        rig.motion(fb, 1.0, 100.0, 1000.0);
+        rig.int(fb, "BufferMode", 1);
+        rig.set(fb, "Execute", true);
+        rig.call(fb);
+    }
+    assert_eq!(rig.get_u16(&fbs[33], "ErrorID"), Code::QueueFull.error_id());
+    let all: Vec<_> = fbs[..33].iter().collect();
+    rig.run(&all, 5000);
+    assert!(fbs[..33].iter().all(|fb| rig.get(fb, "Done")));
+    assert_eq!(rig.position(), 33.0);
 }

@@ -28,8 +28,8 @@ pub enum Outcome {
     Error(Code),
 }
 
-/// Ends remembered.
-const REMEMBERED: usize = 32;
+/// Ends remembered: more than can wait on one axis.
+const REMEMBERED: usize = 64;
 
 /// Numbers commands and remembers how they ended.
 #[derive(Clone, Debug)]
@@ -70,14 +70,23 @@ impl History {
 impl Axis {
     /// What became of a command.
     pub fn outcome(&self, id: CommandId) -> Outcome {
-        self.history.outcome(id, self.command)
+        if self.queue.contains(id) { Outcome::Running } else { self.history.outcome(id, self.command) }
     }
 
     pub(super) fn end_command(&mut self, outcome: Outcome) {
         self.history.end(self.command, outcome);
     }
 
-    fn take(&mut self, event: AxisEvent) -> Result<CommandId, Code> {
+    /// Ends the command at work and all that wait behind it.
+    pub(super) fn end_all(&mut self, outcome: Outcome) {
+        self.end_command(outcome);
+        while let Some(waiting) = self.queue.pop() {
+            self.history.end(waiting.id, outcome);
+        }
+    }
+
+    /// Gives the axis to a new command; everything before it is aborted.
+    pub(super) fn take(&mut self, event: AxisEvent) -> Result<CommandId, Code> {
         if self.joined && event != AxisEvent::Stop {
             return Err(Code::AxisGrouped);
         }
@@ -87,40 +96,19 @@ impl Axis {
         if !self.power.enable || !self.event(event) {
             return Err(Code::WrongState);
         }
-        self.end_command(Outcome::Aborted);
+        self.end_all(Outcome::Aborted);
         self.command = self.history.number();
         Ok(self.command)
     }
 
-    /// MC_MoveAbsolute: to `target` in mm. Acceleration or deceleration 0: the limit of the axis.
-    pub fn move_absolute(&mut self, target: f64, v: f64, a: f64, d: f64) -> Result<CommandId, Code> {
-        let m = self.dynamics(v, a, d)?;
-        if !target.is_finite() || m.v == 0.0 {
-            return Err(Code::ParameterOutOfRange);
-        }
-        if target < self.config.travel_min_mm || target > self.config.travel_max_mm {
-            return Err(Code::LimitExceeded);
-        }
-        let up = target > self.set.position;
-        if target != self.set.position && !(if up { self.power.positive } else { self.power.negative }) {
-            return Err(Code::DirectionBlocked);
-        }
-        let id = self.take(AxisEvent::Move)?;
-        self.generator = Some(Generator::to_position(self.set.position, self.set.velocity, target, m));
-        Ok(id)
+    /// True if command `id` moves the axis now (R8).
+    pub fn is_active(&self, id: CommandId) -> bool {
+        id == self.command && self.outcome(id) == Outcome::Running
     }
 
-    /// MC_MoveRelative: by `distance` from the set position.
-    pub fn move_relative(&mut self, distance: f64, v: f64, a: f64, d: f64) -> Result<CommandId, Code> {
-        self.move_absolute(self.set.position + distance, v, a, d)
-    }
-
-    /// MC_Halt.
-    pub fn halt(&mut self, d: f64) -> Result<CommandId, Code> {
-        let m = self.dynamics(0.0, 0.0, d)?;
-        let id = self.take(AxisEvent::Halt)?;
-        self.brake(m.d);
-        Ok(id)
+    /// True if command `id` moves the axis at its velocity (R10).
+    pub fn is_in_velocity(&self, id: CommandId) -> bool {
+        self.is_active(id) && self.generator.as_ref().is_some_and(Generator::is_in_velocity)
     }
 
     /// MC_Stop. A channel that has the axis stops on its path first.
@@ -142,20 +130,6 @@ impl Axis {
                 self.release_stop();
             }
         }
-    }
-
-    /// MC_Home, direct: the position where the axis stands becomes `position`.
-    pub fn home(&mut self, position: f64) -> Result<CommandId, Code> {
-        if !position.is_finite() {
-            return Err(Code::ParameterOutOfRange);
-        }
-        let id = self.take(AxisEvent::Home)?;
-        let by = position - self.set.position;
-        self.set.position = position;
-        self.actual += by;
-        self.shift += by;
-        self.homed = true;
-        Ok(id)
     }
 
     /// MC_Reset: leaves ErrorStop if what caused it is gone.
@@ -184,7 +158,7 @@ impl Axis {
         let off = self.power.enable && !enable;
         self.power = super::PowerRequest { owner, enable, positive, negative };
         if off && self.state != AxisState::ErrorStop {
-            self.end_command(Outcome::Aborted);
+            self.end_all(Outcome::Aborted);
             self.stop_held = false;
             if !self.joined {
                 self.brake(self.config.a_max_mm_s2);

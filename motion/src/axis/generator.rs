@@ -15,6 +15,8 @@ pub struct Generator {
     phases: [(f64, f64); PHASES],
     elapsed: f64,
     end: f64,
+    /// Velocity that is kept for ever after the phases.
+    cruise: Option<f64>,
 }
 
 /// Dynamics of a move, all positive: mm/s, mm/s2.
@@ -37,22 +39,46 @@ impl Generator {
         if v != 0.0 && (v * distance <= 0.0 || distance.abs() < brake) {
             let stop = x + v.signum() * brake;
             let [p1, p2, p3] = straight(target - stop, 0.0, m);
-            return Self { x, v, phases: [(v.abs() / m.d, -v.signum() * m.d), p1, p2, p3], elapsed: 0.0, end: target };
+            return Self {
+                x,
+                v,
+                phases: [(v.abs() / m.d, -v.signum() * m.d), p1, p2, p3],
+                elapsed: 0.0,
+                end: target,
+                cruise: None,
+            };
         }
         if v.abs() > m.v {
             let slower = (v.abs() - m.v) / m.d;
             let phases = [(slower, -sign * m.d), ((distance.abs() - brake) / m.v, 0.0), (m.v / m.d, -sign * m.d), (0.0, 0.0)];
-            return Self { x, v, phases, elapsed: 0.0, end: target };
+            return Self { x, v, phases, elapsed: 0.0, end: target, cruise: None };
         }
         let [p1, p2, p3] = straight(distance, v.abs(), m);
-        Self { x, v, phases: [p1, p2, p3, (0.0, 0.0)], elapsed: 0.0, end: target }
+        Self { x, v, phases: [p1, p2, p3, (0.0, 0.0)], elapsed: 0.0, end: target, cruise: None }
     }
 
     /// From position `x` and velocity `v` to rest with deceleration `d`.
     pub fn to_rest(x: f64, v: f64, d: f64) -> Self {
         let end = x + v.signum() * v * v / (2.0 * d);
         let phases = [(v.abs() / d, -v.signum() * d), (0.0, 0.0), (0.0, 0.0), (0.0, 0.0)];
-        Self { x, v, phases, elapsed: 0.0, end }
+        Self { x, v, phases, elapsed: 0.0, end, cruise: None }
+    }
+
+    /// From position `x` and velocity `v` to an endless motion at velocity `to`.
+    pub fn to_velocity(x: f64, v: f64, to: f64, m: Dynamics) -> Self {
+        let change = |from: f64, to: f64, a: f64| ((to - from).abs() / a, (to - from).signum() * a);
+        let phases = if v * to < 0.0 {
+            [change(v, 0.0, m.d), change(0.0, to, m.a), (0.0, 0.0), (0.0, 0.0)]
+        } else {
+            let a = if to.abs() > v.abs() { m.a } else { m.d };
+            [change(v, to, a), (0.0, 0.0), (0.0, 0.0), (0.0, 0.0)]
+        };
+        Self { x, v, phases, elapsed: 0.0, end: f64::NAN, cruise: Some(to) }
+    }
+
+    /// True if an endless motion has its velocity.
+    pub fn is_in_velocity(&self) -> bool {
+        self.cruise.is_some() && self.elapsed >= self.duration() - 1e-9
     }
 
     /// Moves on by `dt` seconds; position and velocity.
@@ -68,15 +94,20 @@ impl Generator {
             v += a * t;
             left -= t;
         }
+        if let Some(cruise) = self.cruise
+            && self.is_in_velocity()
+        {
+            return (x + cruise * left.max(0.0), cruise);
+        }
         (x, v)
     }
 
     /// True at the end.
     pub fn is_done(&self) -> bool {
-        self.elapsed >= self.duration() - 1e-9
+        self.cruise.is_none() && self.elapsed >= self.duration() - 1e-9
     }
 
-    /// Where it ends.
+    /// Where it ends; not a number for an endless motion.
     pub fn end(&self) -> f64 {
         self.end
     }

@@ -4,6 +4,7 @@
 
 pub mod commands;
 pub mod generator;
+pub mod orders;
 pub mod state;
 
 pub use commands::{CommandId, Outcome};
@@ -14,6 +15,7 @@ use crate::plant::{Plant, PowerStage};
 use crate::servo::{Gains, Servo, SetPoint};
 use commands::History;
 use generator::{Dynamics, Generator};
+use orders::Queue;
 use takt_base::Code;
 
 /// What MC_Power asks for.
@@ -45,6 +47,7 @@ pub struct Axis {
     generator: Option<Generator>,
     command: CommandId,
     history: History,
+    queue: Queue,
     stop_held: bool,
     power: PowerRequest,
     stage: PowerStage,
@@ -81,6 +84,7 @@ impl Axis {
             generator: None,
             command: CommandId::NONE,
             history: History::default(),
+            queue: Queue::default(),
             stop_held: false,
             power: PowerRequest { owner: 0, enable: false, positive: true, negative: true },
             stage: PowerStage::new(config.drive_enable_delay_s),
@@ -165,7 +169,8 @@ impl Axis {
 
     fn power_tick(&mut self) {
         let on_before = self.stage.is_on();
-        let braking = self.is_moving() && self.state != AxisState::Disabled;
+        // An axis of a channel keeps its power until the path stands, even where it does not move itself.
+        let braking = (self.is_moving() || self.joined) && self.state != AxisState::Disabled;
         self.stage.step(self.power.enable || braking, self.dt);
         if self.stage.has_fault() && self.power.enable || (on_before && !self.stage.is_on() && self.power.enable) {
             self.fault(Code::DriveFault);
@@ -225,9 +230,13 @@ impl Axis {
 
     fn finish_tick(&mut self) {
         self.watch_direction();
+        self.watch_travel();
         if self.generator.as_ref().is_some_and(Generator::is_done) {
             self.generator = None;
             self.set.velocity = 0.0;
+        }
+        if self.generator.as_ref().is_some_and(Generator::is_in_velocity) && self.next_order() {
+            return;
         }
         if self.generator.is_some() || self.joined {
             return;
@@ -235,7 +244,9 @@ impl Axis {
         match self.state {
             AxisState::Homing | AxisState::DiscreteMotion => {
                 self.end_command(Outcome::Done);
-                self.event(AxisEvent::Done);
+                if !self.next_order() {
+                    self.event(AxisEvent::Done);
+                }
             }
             AxisState::Stopping => {
                 self.end_command(Outcome::Done);
@@ -250,11 +261,24 @@ impl Axis {
         let v = self.set.velocity;
         let blocked = v > 0.0 && !self.power.positive || v < 0.0 && !self.power.negative;
         if blocked
-            && self.state == AxisState::DiscreteMotion
+            && matches!(self.state, AxisState::DiscreteMotion | AxisState::ContinuousMotion)
             && self.history.outcome(self.command, self.command) == Outcome::Running
         {
-            self.end_command(Outcome::Error(Code::DirectionBlocked));
+            self.end_all(Outcome::Error(Code::DirectionBlocked));
+            self.event(AxisEvent::Halt);
             self.brake(self.config.a_max_mm_s2);
+        }
+    }
+
+    /// An endless motion ends in front of the software limit, as an axis error.
+    fn watch_travel(&mut self) {
+        if self.state != AxisState::ContinuousMotion {
+            return;
+        }
+        let v = self.set.velocity;
+        let stop = self.set.position + v * self.dt + v * v.abs() / (2.0 * self.config.a_max_mm_s2);
+        if (v > 0.0 && stop > self.config.travel_max_mm) || (v < 0.0 && stop < self.config.travel_min_mm) {
+            self.fault(Code::LimitExceeded);
         }
     }
 
@@ -286,7 +310,7 @@ impl Axis {
         }
         self.error = Some(code);
         self.event(AxisEvent::Fault);
-        self.end_command(Outcome::Error(code));
+        self.end_all(Outcome::Error(code));
         if !self.joined {
             self.brake(self.config.a_max_mm_s2);
         }

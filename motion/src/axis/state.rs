@@ -34,6 +34,8 @@ pub enum AxisEvent {
     Home,
     /// MC_MoveAbsolute, MC_MoveRelative.
     Move,
+    /// MC_MoveVelocity.
+    MoveVelocity,
     /// MC_Halt.
     Halt,
     /// MC_Stop.
@@ -65,7 +67,7 @@ impl AxisState {
 
 impl AxisEvent {
     /// All events.
-    pub const ALL: [AxisEvent; 13] = {
+    pub const ALL: [AxisEvent; 14] = {
         use AxisEvent as E;
         [
             E::PowerOn,
@@ -76,6 +78,7 @@ impl AxisEvent {
             E::ResetOff,
             E::Home,
             E::Move,
+            E::MoveVelocity,
             E::Halt,
             E::Stop,
             E::Join,
@@ -103,6 +106,7 @@ pub const fn next(state: AxisState, event: AxisEvent) -> Option<AxisState> {
         (S::Standstill, E::Home) => S::Homing,
         (S::Standstill, E::Join) => S::SynchronizedMotion,
         (S::Standstill | S::DiscreteMotion | S::ContinuousMotion | S::SynchronizedMotion, E::Move | E::Halt) => S::DiscreteMotion,
+        (S::Standstill | S::DiscreteMotion | S::ContinuousMotion | S::SynchronizedMotion, E::MoveVelocity) => S::ContinuousMotion,
         (S::Standstill | S::Homing | S::DiscreteMotion | S::ContinuousMotion | S::SynchronizedMotion, E::Stop) => S::Stopping,
         (S::Homing | S::DiscreteMotion | S::SynchronizedMotion, E::Done) => S::Standstill,
         (S::Stopping, E::StopReleased) => S::Standstill,

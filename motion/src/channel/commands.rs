@@ -48,6 +48,7 @@ impl Channel {
         if self.program_id == 0 || (program != 0 && program != self.program_id) {
             return Err(Code::ProgramNotLoaded);
         }
+        self.refresh(axes);
         if self.state != CncState::Ready || self.joined {
             return Err(Code::ChannelState);
         }

@@ -191,6 +191,13 @@ impl Channel {
         self.rest_tick(axes);
     }
 
+    /// After the axes have ticked: what the program sees of both in the next scan fits together.
+    pub fn refresh(&mut self, axes: &[Axis]) {
+        if !self.joined {
+            self.watch(axes);
+        }
+    }
+
     fn event(&mut self, event: CncEvent) -> bool {
         let next = state::next(self.state, event);
         self.state = next.unwrap_or(self.state);

@@ -48,6 +48,8 @@ struct Pending {
     v_in: f64,
     /// Planned speed at its end.
     v_out: f64,
+    /// Both are from a backward pass.
+    planned: bool,
 }
 
 /// The look-ahead of one channel.
@@ -62,13 +64,15 @@ pub struct Planner {
     reserve_length: f64,
     out: VecDeque<Planned>,
     run: u32,
+    /// Elements before the last one have changed since the last backward pass.
+    dirty: bool,
 }
 
 impl Planner {
     /// A planner for axes with these limits that are sampled every `period` seconds. `run` marks its output.
     pub fn new(axes: AxisLimits, period: f64, run: u32) -> Self {
         let (window, out) = (VecDeque::with_capacity(WINDOW + 2), VecDeque::new());
-        Self { axes, period, window, moves: 0, v_released: 0.0, reserve_length: 0.0, out, run }
+        Self { axes, period, window, moves: 0, v_released: 0.0, reserve_length: 0.0, out, run, dirty: true }
     }
 
     /// Takes a move.
@@ -77,7 +81,7 @@ impl Planner {
             return;
         }
         let limits = path_limits(&m.path, &self.axes, m.feed, 1.0);
-        let mut new = Pending { mark, m, limits, joint_v: 0.0, reserve: false, v_in: 0.0, v_out: 0.0 };
+        let mut new = Pending { mark, m, limits, joint_v: 0.0, reserve: false, v_in: 0.0, v_out: 0.0, planned: false };
         self.join(&mut new);
         if self.reserve_length > 0.0 {
             self.reserve_length -= m.path.length;
@@ -109,6 +113,7 @@ impl Planner {
         }
         self.v_released = 0.0;
         self.reserve_length = 0.0;
+        self.dirty = true;
     }
 
     /// The next released step.
@@ -147,6 +152,7 @@ impl Planner {
     }
 
     fn reserve_back(&mut self, v: f64) {
+        self.dirty = true;
         let mut length = 0.0;
         for held in self.window.iter_mut().rev() {
             let Held::Move(p) = held else { continue };
@@ -159,15 +165,20 @@ impl Planner {
     }
 
     /// Backward pass (R1-160): from rest at the end of the window. A joint is no faster than either of its elements.
+    // A new element rarely changes more than the last few: where a start speed stays what it was, so does everything before it.
     fn plan(&mut self) {
         let mut next = 0.0f64;
         for held in self.window.iter_mut().rev() {
             let Held::Move(p) = held else { continue };
             let v_out = next.min(p.limits.v);
-            p.v_out = v_out;
-            p.v_in = (v_out * v_out + 2.0 * p.limits.a * p.m.path.length).sqrt().min(p.joint_v).min(p.limits.v);
-            next = p.v_in;
+            let v_in = (v_out * v_out + 2.0 * p.limits.a * p.m.path.length).sqrt().min(p.joint_v).min(p.limits.v);
+            if !self.dirty && (v_in, v_out) == (p.v_in, p.v_out) && p.planned {
+                break;
+            }
+            (p.v_in, p.v_out, p.planned) = (v_in, v_out, true);
+            next = v_in;
         }
+        self.dirty = false;
     }
 
     /// Forward pass (R1-161), one element: its start speed is given, its end speed what it can reach.

@@ -139,6 +139,7 @@ impl Cyclic for Machine {
         let Core { axes, channels } = &mut self.core;
         channels.iter_mut().for_each(|c| c.tick(axes));
         axes.iter_mut().for_each(Axis::tick);
+        channels.iter_mut().for_each(|c| c.refresh(axes));
         self.measure();
         self.trace.record(now, &self.core.axes);
     }

@@ -29,6 +29,7 @@ pub const BLOCKS: &[Block] = &[
     crate::plcopen::mc_halt::BLOCK,
     crate::plcopen::mc_move_absolute::BLOCK,
     crate::plcopen::mc_move_relative::BLOCK,
+    crate::plcopen::mc_move_velocity::BLOCK,
     crate::plcopen::mc_reset::BLOCK,
     crate::plcopen::mc_read_status::BLOCK,
     crate::plcopen::mc_read_actual_position::BLOCK,

@@ -32,9 +32,12 @@ pub const ABSENT: usize = usize::MAX;
 #[doc(hidden)]
 macro_rules! execute_pins {
     ($p:ident, $active:expr, $aborted:expr) => {
+        execute_pins!(@ $p, Done, $active, $aborted)
+    };
+    (@ $p:ident, $done:ident, $active:expr, $aborted:expr) => {
         $crate::natives::rules::ExecutePins {
             execute: $p::Execute as usize,
-            done: $p::Done as usize,
+            done: $p::$done as usize,
             busy: $p::Busy as usize,
             active: $active,
             aborted: $aborted,
@@ -49,7 +52,13 @@ macro_rules! execute_pins {
         execute_pins!($p, $crate::natives::rules::ABSENT, $crate::natives::rules::ABSENT)
     };
     ($p:ident motion) => {
-        execute_pins!($p, $p::Active as usize, $p::CommandAborted as usize)
+        execute_pins!(@ $p, Done, $p::Active as usize, $p::CommandAborted as usize)
+    };
+    ($p:ident continuous) => {
+        $crate::natives::rules::ExecutePins {
+            done: $crate::natives::rules::ABSENT,
+            ..execute_pins!(@ $p, InVelocity, $p::Active as usize, $p::CommandAborted as usize)
+        }
     };
 }
 
@@ -107,7 +116,10 @@ pub fn execute(core: &mut Core, f: &mut Frame, pins: &ExecutePins, number: u16, 
                 f.set_u32(pins.command, command);
                 f.set_u16(pins.reference, number);
                 f.set_bool(pins.busy, true);
-                f.set_bool(pins.active, true);
+                // What ends at once is shown with the next call.
+                let target = target.unwrap_or_default();
+                let waits = (action.poll)(core, target, command);
+                f.set_bool(pins.active, waits.active || waits.outcome != Outcome::Running);
             }
             Err(code) => pins.fail(f, code),
         }

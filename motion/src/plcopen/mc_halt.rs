@@ -1,6 +1,7 @@
 //! MC_Halt: controlled stop in normal operation (PLCopen part 1, §3.4).
 //! Runs: cyclic.
 
+use crate::axis::orders::{Order, Wanted};
 use crate::natives::rules::{self, Action};
 use crate::natives::{Core, Frame};
 use crate::{block, execute_pins};
@@ -33,5 +34,6 @@ fn call(core: &mut Core, f: &mut Frame) {
 
 fn start(core: &mut Core, f: &mut Frame, axis: usize) -> Result<u32, Code> {
     super::supported(f.i16(P::BufferMode), f.lreal(P::Jerk), false)?;
-    core.axes[axis].halt(f.lreal(P::Deceleration)).map(|id| id.0)
+    let order = Order::Halt(Wanted { d: f.lreal(P::Deceleration), ..Wanted::default() });
+    super::order(core, axis, order, f.i16(P::BufferMode))
 }

@@ -1,6 +1,7 @@
 //! MC_Home: direct homing: the position at hand gets a number (PLCopen part 1, §3.2).
 //! Runs: cyclic.
 
+use crate::axis::orders::Order;
 use crate::natives::rules::{self, Action};
 use crate::natives::{Core, Frame};
 use crate::{block, execute_pins};
@@ -32,5 +33,6 @@ fn call(core: &mut Core, f: &mut Frame) {
 
 fn start(core: &mut Core, f: &mut Frame, axis: usize) -> Result<u32, Code> {
     super::supported(f.i16(P::BufferMode), 0.0, false)?;
-    core.axes[axis].home(f.lreal(P::Position)).map(|id| id.0)
+    let order = Order::Home(f.lreal(P::Position));
+    super::order(core, axis, order, f.i16(P::BufferMode))
 }

@@ -1,6 +1,7 @@
 //! MC_MoveRelative: moves an axis by a distance (PLCopen part 1, §3.6).
 //! Runs: cyclic.
 
+use crate::axis::orders::Order;
 use crate::natives::rules::{self, Action};
 use crate::natives::{Core, Frame};
 use crate::{block, execute_pins};
@@ -37,6 +38,6 @@ fn call(core: &mut Core, f: &mut Frame) {
 
 fn start(core: &mut Core, f: &mut Frame, axis: usize) -> Result<u32, Code> {
     super::supported(f.i16(P::BufferMode), f.lreal(P::Jerk), f.bool(P::ContinuousUpdate))?;
-    let (v, a, d) = (f.lreal(P::Velocity), f.lreal(P::Acceleration), f.lreal(P::Deceleration));
-    core.axes[axis].move_relative(f.lreal(P::Distance), v, a, d).map(|id| id.0)
+    let order = Order::Relative(f.lreal(P::Distance), super::wanted(f, P::Velocity, P::Acceleration, P::Deceleration));
+    super::order(core, axis, order, f.i16(P::BufferMode))
 }

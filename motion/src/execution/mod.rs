@@ -3,18 +3,24 @@
 //! Invariant: the path speed is never above the planned one. Without hold and override it is the planned one; they cap it, and the
 //! path is kept with at most the path acceleration of each element. From: R1-116, R1-165, CM-23, scenario S40.
 
+mod ramp;
+
 use crate::geometry::Point;
-use crate::profile::Phase;
 use crate::segment::{Action, Mark, Planned, Segment};
+use ramp::{Ramp, meets};
 use std::collections::VecDeque;
 use takt_base::ring::Rx;
 
 /// Elements that wait behind the ring.
 pub const QUEUE: usize = 1024;
+/// Elements taken from the ring in one tick.
+const FILL: usize = 256;
 /// Elements that must wait before a program starts, unless it is shorter.
 const PRIMED: usize = 512;
 /// Elements kept for the path deviation.
-pub const HISTORY: usize = 16;
+pub const HISTORY: usize = 64;
+/// Length of path behind the current position in which the actual position is looked for, and the least number of elements.
+const BEHIND: (f64, usize) = (5.0, 4);
 
 /// What the operator and the PLC program want, as shares of the programmed speed.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -132,7 +138,7 @@ impl PathExecutor {
 
     /// Takes what the look-ahead has released for `run`.
     pub fn fill(&mut self, ring: &mut Rx<Planned>, run: u32) {
-        while self.queue.len() < QUEUE {
+        for _ in 0..FILL.min(QUEUE - self.queue.len()) {
             let Some(step) = ring.pop() else { return };
             if step.run == run {
                 self.accept(step);
@@ -182,11 +188,19 @@ impl PathExecutor {
         self.dwell_s > 0.0
     }
 
-    /// Distance of a point from the path round the current position, in mm.
+    /// Distance of a point from the path at and behind the current position, in mm; infinite without a path.
     pub fn deviation(&self, p: &Point) -> f64 {
         let current = self.current.as_ref().map(|c| &c.segment);
-        let near = self.history.iter().flatten().chain(current);
-        near.map(|s| s.path.distance_to(p)).fold(f64::INFINITY, f64::min)
+        let newest_first = (1..=HISTORY).map_while(|k| self.history[(self.history_next + HISTORY - k) % HISTORY].as_ref());
+        let (mut nearest, mut behind) = (f64::INFINITY, 0.0);
+        for (n, segment) in current.into_iter().chain(newest_first).enumerate() {
+            nearest = nearest.min(segment.path.distance_to(p));
+            behind += segment.path.length;
+            if n >= BEHIND.1 && behind > BEHIND.0 {
+                break;
+            }
+        }
+        nearest
     }
 
     /// Moves on by `dt` seconds, or up to the next action that is not for the path.
@@ -407,44 +421,6 @@ impl PathExecutor {
 
 /// Length below which the end of an element is reached: rounding of the ramp.
 const END_MM: f64 = 1e-12;
-
-/// True if the square of a speed is that of the plan, but for rounding.
-fn meets(w2: f64, plan_v2: f64) -> bool {
-    w2 >= plan_v2 * (1.0 - 1e-12)
-}
-
-/// A stretch of constant path acceleration: to the end of the phase, to the plan, to the cap or to rest.
-struct Ramp {
-    length: f64,
-    v_end: f64,
-    to_phase_end: bool,
-}
-
-impl Ramp {
-    fn new(w: f64, a: f64, cap: f64, s: f64, phase: &Phase) -> Self {
-        let mut ramp = Ramp { length: phase.end - s, v_end: 0.0, to_phase_end: true };
-        ramp.v_end = (w * w + 2.0 * a * ramp.length).max(0.0).sqrt();
-        if a > phase.a {
-            let meet = (phase.v2(s) - w * w) / (2.0 * (a - phase.a));
-            ramp.shorten(meet.max(0.0), phase.v2(s + meet.max(0.0)).sqrt());
-        }
-        if a != 0.0 {
-            ramp.shorten((cap * cap - w * w) / (2.0 * a), cap);
-        }
-        ramp
-    }
-
-    fn shorten(&mut self, length: f64, v_end: f64) {
-        if length < self.length {
-            *self = Ramp { length, v_end, to_phase_end: false };
-        }
-    }
-
-    fn time(&self, w: f64) -> f64 {
-        let speeds = w + self.v_end;
-        if speeds > 0.0 { 2.0 * self.length / speeds } else { 0.0 }
-    }
-}
 
 #[allow(clippy::large_enum_variant)] // as above
 enum Next {
