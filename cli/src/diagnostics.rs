@@ -22,10 +22,7 @@ pub struct JsonDiag {
 
 /// The JSON form of one message. Lines and columns count from 1; the end is exclusive.
 pub fn json(diag: &Diag, sources: &Sources) -> JsonDiag {
-    let (start, end) = (
-        sources.line_col(diag.span.source, diag.span.start),
-        sources.line_col(diag.span.source, diag.span.end),
-    );
+    let (start, end) = (sources.line_col(diag.span.source, diag.span.start), sources.line_col(diag.span.source, diag.span.end));
     let label = if diag.label.is_empty() { String::new() } else { format!(": {}", diag.label) };
     JsonDiag {
         code: diag.code.text(),

@@ -38,7 +38,13 @@ pub fn show(t: Nanos) -> String {
         1_000_000..1_000_000_000 => (t.0 as f64 / 1e6, "ms"),
         _ => (t.0 as f64 / 1e9, "s"),
     };
-    let digits = if value.abs() >= 100.0 || unit == "ns" { 0 } else if value.abs() >= 10.0 { 1 } else { 2 };
+    let digits = if value.abs() >= 100.0 || unit == "ns" {
+        0
+    } else if value.abs() >= 10.0 {
+        1
+    } else {
+        2
+    };
     format!("{value:.digits$} {unit}")
 }
 

@@ -14,7 +14,12 @@ mod watch;
 use clap::{Parser, Subcommand};
 
 #[derive(Parser)]
-#[command(name = "takt", version, about = "Soft-PLC with integrated motion", after_help = "Example: takt run examples/02-plotter")]
+#[command(
+    name = "takt",
+    version,
+    about = "Soft-PLC with integrated motion",
+    after_help = "Example: takt run examples/02-plotter"
+)]
 struct Cli {
     #[command(subcommand)]
     command: Command,
@@ -35,6 +40,7 @@ enum Command {
 /// Exit status of the process.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Status {
+    /// Done.
     Success = 0,
     /// The user's program or project is wrong.
     Wrong = 1,

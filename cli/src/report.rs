@@ -57,14 +57,18 @@ pub fn machine(report: &MachineReport, config: &MachineConfig) -> String {
 
 fn channel(c: &ChannelReport, axes: &[&AxisReport], deviation_mm: f64) -> String {
     let mut out = format!("channel {}: {} blocks run, path length {:.3} mm", c.name, c.blocks, c.feed_mm);
-    let end: Vec<_> = axes.iter().map(|a| format!("{:.0$}", decimals(a.set_mm), a.set_mm)).collect();
+    let end: Vec<_> = axes.iter().map(|a| format!("{:.1$}", a.set_mm, decimals(a.set_mm))).collect();
     let _ = write!(out, ", end point ({})", end.join(", "));
     match &c.pulses {
         None => {
             let _ = writeln!(out, ", maximum path deviation {deviation_mm:.4} mm");
         }
         Some(p) => {
-            let _ = writeln!(out, "\n  pulses up {:?}, down {:?}, iterations {}, at most {} a tick", p.up, p.down, p.iterations, p.batch_max);
+            let _ = writeln!(
+                out,
+                "\n  pulses up {:?}, down {:?}, iterations {}, at most {} a tick",
+                p.up, p.down, p.iterations, p.batch_max
+            );
             if p.wrapped.contains(&true) {
                 let _ = writeln!(out, "  an 8-bit counter of the interface wrapped: {:?}", p.wrapped);
             }
@@ -103,7 +107,9 @@ pub fn write_trace(path: &Path, trace: &Trace, config: &MachineConfig) -> Result
     }
     for row in trace.rows() {
         let _ = write!(out, "\n{}", row.time.0);
-        row.values.iter().for_each(|v| drop(write!(out, ",{v}")));
+        for v in row.values {
+            let _ = write!(out, ",{v}");
+        }
     }
     out.push('\n');
     if trace.is_full() {

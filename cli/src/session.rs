@@ -105,7 +105,8 @@ impl Session {
         let engine: Box<dyn Engine> = match (engine, &self.module) {
             (EngineKind::Native, _) => Box::new(NativeEngine::new(&self.image, &mut host).map_err(refused)?),
             (EngineKind::Interpreter, Some(module)) => {
-                let bound = Interpreter::bind(module, &mut host, &self.image.types).map_err(|e| refused_text(format!("{e:?}")))?;
+                let bound =
+                    Interpreter::bind(module, &mut host, &self.image.types).map_err(|e| refused_text(format!("{e:?}")))?;
                 let engine = Interpreter::new(Arc::clone(module), bound, self.image.memory.frames);
                 Box::new(engine.map_err(|e| refused_text(format!("{e:?}")))?)
             }
@@ -175,14 +176,15 @@ fn is_image(file: &Path) -> bool {
         let mut magic = [0; encode::MAGIC.len()];
         std::io::Read::read_exact(&mut f, &mut magic).map(|()| magic)
     });
-    start.is_ok_and(|magic| magic == *encode::MAGIC)
+    start.is_ok_and(|magic| magic == encode::MAGIC)
 }
 
 /// What travels in an image: the project file and the data files of its folder.
 fn attachments(project: &Project) -> Vec<(String, Vec<u8>)> {
     let mut files = vec![(TOML.to_owned(), project.toml.clone().into_bytes())];
     let entries = std::fs::read_dir(&project.root).into_iter().flatten().flatten().map(|e| e.path());
-    let mut paths: Vec<_> = entries.filter(|p| p.extension().and_then(|e| e.to_str()).is_some_and(|e| ATTACHED.contains(&e))).collect();
+    let mut paths: Vec<_> =
+        entries.filter(|p| p.extension().and_then(|e| e.to_str()).is_some_and(|e| ATTACHED.contains(&e))).collect();
     paths.sort();
     for path in paths.iter().filter(|_| !project.toml.is_empty()) {
         if let (Some(name), Ok(bytes)) = (path.file_name(), std::fs::read(path)) {

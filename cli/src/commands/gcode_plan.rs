@@ -133,7 +133,9 @@ fn csv(r: &PlanReport, period_s: f64) -> String {
     axes.iter().for_each(|&i| out.extend([',', LETTERS[i]]));
     for (k, point) in r.set_points.iter().enumerate() {
         let _ = write!(out, "\n{:.6}", k as f64 * period_s);
-        axes.iter().for_each(|&i| drop(write!(out, ",{:.9}", point[i])));
+        for &i in &axes {
+            let _ = write!(out, ",{:.9}", point[i]);
+        }
     }
     out.push('\n');
     out

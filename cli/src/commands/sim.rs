@@ -143,7 +143,10 @@ fn stimulus(args: &Args, session: &Session) -> Result<Stimulus, Problem> {
     let mut stimulus = session.stimulus(args.stimulus.as_deref())?;
     for set in &args.sets {
         let (path, value, scan) = parse_set(set).ok_or_else(|| {
-            Problem::File(takt_base::Code::BadValueText, format!("--set '{set}': write PATH=VALUE@SCAN, for example 'main.level=42@3'"))
+            Problem::File(
+                takt_base::Code::BadValueText,
+                format!("--set '{set}': write PATH=VALUE@SCAN, for example 'main.level=42@3'"),
+            )
         })?;
         let patch = Patch::from_path(&session.image, path, value).map_err(|e| Problem::access(&e))?;
         stimulus.push(When::Scan(scan), patch);

@@ -8,7 +8,6 @@ use crate::syntax::ast::{self, AddressSize, Area};
 use std::collections::HashMap;
 use takt_base::{Code, Diag, Span};
 use takt_image::image::Place as ImagePlace;
-use takt_image::types::Type;
 use takt_image::{Elementary, MemoryMap, TypeId};
 
 /// Bytes of each area at most.
