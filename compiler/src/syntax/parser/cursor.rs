@@ -8,7 +8,7 @@ use std::collections::HashSet;
 use takt_base::diag::{Code, Diag};
 use takt_base::{SourceId, Span};
 
-/// Deepest nesting of statements, types, initial values and expressions, counted together.
+/// Deepest nesting of statements; and, counted on their own, of types, initial values and expressions together.
 pub(super) const MAX_DEPTH: u32 = 200;
 
 /// What the file is read with.
@@ -23,6 +23,7 @@ pub(super) struct Parser<'a> {
     /// Position of the last message: there is only one for each token.
     last_error: usize,
     depth: u32,
+    statement_depth: u32,
     /// Closing keywords of the statements that are open.
     pub(super) open: Vec<Kw>,
     /// An unclosed statement was reported; the ones around it are not, up to the end of the unit.
@@ -45,6 +46,7 @@ impl<'a> Parser<'a> {
             lost: false,
             last_error: usize::MAX,
             depth: 0,
+            statement_depth: 0,
             open: Vec::new(),
             unwinding: false,
             named: HashSet::new(),
@@ -147,6 +149,18 @@ impl<'a> Parser<'a> {
     pub(super) fn leave(&mut self) {
         self.depth -= 1;
     }
+    /// As [`Parser::enter`], for a statement.
+    pub(super) fn enter_statement(&mut self) -> bool {
+        self.statement_depth += 1;
+        if self.statement_depth > MAX_DEPTH {
+            self.too_deep(format!("more than {MAX_DEPTH} statements inside of one another"));
+            return false;
+        }
+        true
+    }
+    pub(super) fn leave_statement(&mut self) {
+        self.statement_depth -= 1;
+    }
     pub(super) fn too_deep(&mut self, label: String) {
         let diag = Diag::new(Code::NestedTooDeep, self.here(), label);
         self.error(diag.help("split it: give a part its own variable, function or type"));
@@ -161,7 +175,7 @@ impl<'a> Parser<'a> {
     }
     /// Reports a mistake that the parser understands: it goes on as if the right thing stood there.
     pub(super) fn soft(&mut self, diag: Diag) {
-        let reported_by_lexer = self.at(Tok::Error);
+        let reported_by_lexer = self.at(Tok::Error) || self.at_end() && self.tokens.cut;
         if !self.lost && !reported_by_lexer && self.last_error != self.pos {
             self.last_error = self.pos;
             self.report.push(diag);

@@ -179,7 +179,9 @@ impl Parser<'_> {
                 Tok::LBracket => self.index(tree),
                 Tok::LParen => self.call(tree),
                 Tok::Caret => {
-                    self.unsupported_here("dereferencing (^)");
+                    if !matches!(tree.expr.kind, ExprKind::Error) {
+                        self.unsupported_here("dereferencing (^)");
+                    }
                     self.bump();
                     Tree::error(self.since(tree.expr.span))
                 }
@@ -406,7 +408,7 @@ impl Parser<'_> {
     }
 
     /// The current word as written, without the checks for names.
-    fn bare_name(&mut self) -> Name {
+    pub(super) fn bare_name(&mut self) -> Name {
         let token = self.bump();
         Name { text: self.text_of(token).to_owned(), span: self.span_of(token) }
     }

@@ -158,6 +158,8 @@ impl Parser<'_> {
                     break;
                 }
                 depth -= 1;
+            } else if depth == 0 && matches!(kw, Kw::Else | Kw::Elsif | Kw::Until) {
+                break;
             } else if kw.opens_declaration() || kw.is_section() || kw.ends_declaration() {
                 self.unwinding = true;
                 break;

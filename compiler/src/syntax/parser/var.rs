@@ -108,6 +108,11 @@ impl Parser<'_> {
 
     fn var_decl_inner(&mut self) -> Option<VarDecl> {
         let start = self.here();
+        if self.kw().is_type() && self.nth(1).kind == Tok::Word && self.nth(1).kw != Kw::At {
+            let ty = self.bare_name();
+            self.no_colon(&[ty]);
+            return None;
+        }
         let names = if self.kw() == Kw::At { Vec::new() } else { self.names()? };
         let at = if self.eat_kw(Kw::At) { self.located()? } else { None };
         if !self.at(Tok::Colon) {
@@ -142,7 +147,7 @@ impl Parser<'_> {
         let span = self.span_of(token);
         let address = match address::direct(self.text_of(token), span) {
             Ok(address) => Some(address),
-            Err(_) if address::partial(self.text_of(token)).is_ok() => {
+            Err(_) if address::is_relative(self.text_of(token)) => {
                 self.unsupported_here("a relative address in a structure");
                 None
             }
