@@ -222,11 +222,13 @@ impl<'a> Parser<'a> {
 
     /// A name that is declared here; `what` says of what. A keyword is reported once and then is a name.
     pub(super) fn declared_name(&mut self, what: &str) -> Option<Name> {
-        if !self.at(Tok::Word) {
+        let kw = self.kw();
+        let is_named = matches!(self.nth(1).kind, Tok::Colon | Tok::Comma | Tok::Assign) || self.nth(1).kw == Kw::At;
+        if !self.at(Tok::Word) || (kw.ends_statements() || kw.opens_statement()) && !is_named {
             self.expected(what);
             return None;
         }
-        if self.kw().is_reserved() {
+        if kw.is_reserved() {
             self.keyword_as_name(what);
         }
         Some(self.name())

@@ -177,6 +177,7 @@ impl Parser<'_> {
 fn ends_skipped(open: Kw, kw: Kw) -> bool {
     match open {
         Kw::Namespace => false,
+        Kw::Resource => kw.opens_declaration() && kw != Kw::Program || kw == Kw::EndProgram,
         Kw::Class | Kw::Interface | Kw::Function | Kw::FunctionBlock | Kw::Program => {
             matches!(
                 kw,

@@ -106,7 +106,9 @@ impl Parser<'_> {
             Kw::Continue => self.one_word(StmtKind::Continue),
             Kw::Return => self.return_statement(),
             Kw::Jmp if self.nth(1).kind == Tok::Word => self.unsupported_statement("JMP"),
-            _ if self.at(Tok::Word) && self.nth(1).kind == Tok::Colon => self.unsupported_statement("a label"),
+            _ if self.at(Tok::Word) && self.nth(1).kind == Tok::Colon && self.nth(2).kind != Tok::Eq => {
+                self.unsupported_statement("a label")
+            }
             _ => self.assign_or_call(),
         }
     }

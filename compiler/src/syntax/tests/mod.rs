@@ -6,6 +6,7 @@ mod lexis;
 mod limits;
 mod mistakes;
 mod print;
+mod recovery;
 mod smoke;
 mod stmts;
 
