@@ -32,6 +32,8 @@ pub(super) struct Parser<'a> {
     named: HashSet<u8>,
     /// Names with misplaced underscores; reported once.
     misspelt: HashSet<String>,
+    /// Position of an END_VAR that was looked for.
+    pub(super) end_var: usize,
     library: bool,
 }
 
@@ -51,6 +53,7 @@ impl<'a> Parser<'a> {
             unwinding: false,
             named: HashSet::new(),
             misspelt: HashSet::new(),
+            end_var: 0,
             library,
         }
     }

@@ -63,10 +63,7 @@ impl Parser<'_> {
             }
             self.bump();
         }
-        if self.eat_kw(kw) || !self.eat(Tok::Semi) {
-            self.found_place();
-            return;
-        }
+        let _ = self.eat_kw(kw) || self.eat(Tok::Semi);
         self.found_place();
     }
 

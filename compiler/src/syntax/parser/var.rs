@@ -87,12 +87,27 @@ impl Parser<'_> {
     }
 
     /// True if a statement stands here: END_VAR is missing. `x := 1;` counts only if no END_VAR follows.
-    fn is_statement(&self) -> bool {
+    fn is_statement(&mut self) -> bool {
         let next = self.nth(1).kind;
         if self.kw().opens_statement() {
             return !matches!(next, Tok::Colon | Tok::Comma) && self.nth(1).kw != Kw::At;
         }
+        if self.at(Tok::Word) && next == Tok::Assign {
+            return !self.end_var_follows();
+        }
         self.at(Tok::Word) && matches!(next, Tok::Dot | Tok::LBracket | Tok::LParen)
+    }
+
+    /// True if this section is closed. Remembers where, so that many mistakes in one section do not look for it again and again.
+    fn end_var_follows(&mut self) -> bool {
+        if self.pos < self.end_var {
+            return true;
+        }
+        let ends = |kw: Kw| kw.is_section() || kw.ends_declaration() || kw.opens_declaration();
+        let found = self.tokens.list[self.pos..].iter().position(|t| ends(t.kw));
+        let found = found.filter(|&i| self.tokens.list[self.pos + i].kw == Kw::EndVar);
+        self.end_var = found.map_or(0, |i| self.pos + i);
+        found.is_some()
     }
 
     /// A declaration with its `;`. On a mistake the parser has skipped to the next one.

@@ -70,6 +70,8 @@ fn what_is_not_nested_has_no_limit() {
     let deep = program(&format!("{}x := ((((1))));{}", "IF a THEN ".repeat(150), "END_IF;".repeat(150)));
     assert!(messages(&deep).is_empty());
     assert!(messages(&program(&format!("x := a{};", " OR a".repeat(250)))).is_empty());
+    let both = format!("{}x := {}1{};{}", "IF a THEN ".repeat(198), "(".repeat(190), ")".repeat(190), "END_IF;".repeat(198));
+    assert!(messages(&program(&both)).is_empty());
     let elements = format!("PROGRAM p VAR a : ARRAY [1..9] OF INT := [{}]; END_VAR END_PROGRAM", vec!["1"; 100_000].join(","));
     assert!(messages(&elements).is_empty());
 }

@@ -18,6 +18,7 @@ const MISTAKES: &[(&str, &str)] = &[
     ("the wrong END", "PROGRAM p\n  FOR i := 1 TO 3 DO\n    x := i;\n  END_WHILE;\nEND_PROGRAM\n"),
     ("an END too many", "PROGRAM p\n  x := 1;\n  END_IF;\n  y := 2;\nEND_PROGRAM\n"),
     ("a missing END_VAR", "PROGRAM p\nVAR\n  x : INT;\n  IF x = 1 THEN\n    x := 2;\n  END_IF;\nEND_PROGRAM\n"),
+    ("a missing END_VAR before an assignment", "PROGRAM p\nVAR\n  x : INT;\n  x := 2;\n  x := 3;\nEND_PROGRAM\n"),
     ("the type first", "PROGRAM p\nVAR\n  INT x;\n  count speed;\n  y : INT;\nEND_VAR\nEND_PROGRAM\n"),
     ("a missing type", "PROGRAM p\nVAR\n  x := 5;\n  y : INT = 5;\nEND_VAR\nEND_PROGRAM\n"),
     ("a keyword as a name", "PROGRAM p\nVAR\n  step : INT;\n  dt : REAL;\nEND_VAR\n  step := step + 1;\nEND_PROGRAM\n"),
