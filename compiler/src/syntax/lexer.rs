@@ -140,11 +140,13 @@ pub(crate) struct Tokens {
     pub(crate) list: Vec<Token>,
     /// Positions in `list` before which `{external}` stands, ascending.
     pub(crate) external: Vec<usize>,
+    /// A comment or pragma runs to the end of the file: what seems missing there may stand in it.
+    pub(crate) cut: bool,
 }
 
 /// Splits the text; reports what is not closed and what is no token.
 pub(crate) fn lex(text: &str, source: SourceId, report: &mut Report) -> Tokens {
-    let mut scan = Scan { logos: Tok::lexer(text), source, report, external: Vec::new() };
+    let mut scan = Scan { logos: Tok::lexer(text), source, report, external: Vec::new(), cut: false };
     let mut list: Vec<Token> = Vec::with_capacity(text.len() / 5 + 1);
     while let Some(next) = scan.logos.next() {
         let start = scan.logos.span().start;
@@ -161,7 +163,7 @@ pub(crate) fn lex(text: &str, source: SourceId, report: &mut Report) -> Tokens {
     }
     let end = text.len() as u32;
     list.push(Token { kind: Tok::Eof, kw: Kw::None, start: end, end });
-    Tokens { list, external: scan.external }
+    Tokens { list, external: scan.external, cut: scan.cut }
 }
 
 struct Scan<'t, 'r, 's> {
@@ -169,6 +171,7 @@ struct Scan<'t, 'r, 's> {
     source: SourceId,
     report: &'r mut Report<'s>,
     external: Vec<usize>,
+    cut: bool,
 }
 
 impl Scan<'_, '_, '_> {
@@ -293,6 +296,7 @@ impl Scan<'_, '_, '_> {
         }
         self.logos.bump(i.min(rest.len()));
         if depth > 0 {
+            self.cut = true;
             let diag = Diag::new(Code::UnterminatedComment, opener, "opened here and still open at the end of the file");
             let diag = match inner {
                 Some(at) => diag.also(Span::new(self.source, at, at + 2), "a comment inside it opens (comments nest)"),
@@ -309,6 +313,7 @@ impl Scan<'_, '_, '_> {
         let rest = self.logos.remainder();
         let close = if rest.starts_with('{') { "}}" } else { "}" };
         let Some(n) = rest.find(close) else {
+            self.cut = true;
             self.logos.bump(rest.len());
             let diag = Diag::new(Code::UnterminatedComment, opener, "opened here and still open at the end of the file");
             self.report.push(diag.message("a pragma is not closed").help(format!("close it with {close}")));

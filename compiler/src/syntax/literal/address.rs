@@ -40,6 +40,12 @@ pub(crate) fn partial(text: &str) -> Result<(AddressSize, u32), Problem> {
     }
 }
 
+/// True for `%X4.2` in a structure: a size and no area.
+pub(crate) fn is_relative(text: &str) -> bool {
+    let body = text.strip_prefix('%').unwrap_or(text);
+    size_of(body).is_some() && path(&body[1..]).is_ok()
+}
+
 fn size_of(text: &str) -> Option<AddressSize> {
     Some(match text.bytes().next()?.to_ascii_uppercase() {
         b'X' => AddressSize::Bit,

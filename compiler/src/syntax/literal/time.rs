@@ -115,13 +115,13 @@ fn scale(number: &str, unit: i128) -> Result<(i128, bool), Problem> {
         return Err(bad(format!("{number} is not a number")));
     }
     let mut nanos = digits(whole).and_then(|w| w.checked_mul(unit)).ok_or_else(|| bad("longer than the longest duration"))?;
-    let (part, exact) = fraction_of(fraction, unit);
+    let (part, exact) = fraction_of(fraction, unit, nanos % 2 != 0);
     nanos = nanos.saturating_add(part);
     Ok((nanos, exact))
 }
 
-/// `0.fraction * unit`, rounded half to even.
-fn fraction_of(fraction: &str, unit: i128) -> (i128, bool) {
+/// `0.fraction * unit`, rounded half to even together with the whole part, which is odd or not.
+fn fraction_of(fraction: &str, unit: i128, whole_is_odd: bool) -> (i128, bool) {
     let (mut numerator, mut denominator, mut rest_is_zero) = (0i128, 1i128, true);
     for (i, d) in fraction.bytes().filter(u8::is_ascii_digit).enumerate() {
         let d = i128::from(d - b'0');
@@ -135,7 +135,7 @@ fn fraction_of(fraction: &str, unit: i128) -> (i128, bool) {
     let product = numerator * unit; // below 10^22 * 8.64 * 10^13: fits
     let (quotient, remainder) = (product / denominator, product % denominator);
     let half = (remainder * 2).cmp(&denominator);
-    let up = half.is_gt() || half.is_eq() && (!rest_is_zero || quotient % 2 == 1);
+    let up = half.is_gt() || half.is_eq() && (!rest_is_zero || (quotient % 2 == 1) != whole_is_odd);
     (quotient + i128::from(up), remainder == 0 && rest_is_zero)
 }
 

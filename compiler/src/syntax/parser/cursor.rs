@@ -8,7 +8,7 @@ use std::collections::HashSet;
 use takt_base::diag::{Code, Diag};
 use takt_base::{SourceId, Span};
 
-/// Deepest nesting of statements, types, initial values and expressions, counted together.
+/// Deepest nesting of statements; and, counted on their own, of types, initial values and expressions together.
 pub(super) const MAX_DEPTH: u32 = 200;
 
 /// What the file is read with.
@@ -23,6 +23,7 @@ pub(super) struct Parser<'a> {
     /// Position of the last message: there is only one for each token.
     last_error: usize,
     depth: u32,
+    statement_depth: u32,
     /// Closing keywords of the statements that are open.
     pub(super) open: Vec<Kw>,
     /// An unclosed statement was reported; the ones around it are not, up to the end of the unit.
@@ -31,6 +32,8 @@ pub(super) struct Parser<'a> {
     named: HashSet<u8>,
     /// Names with misplaced underscores; reported once.
     misspelt: HashSet<String>,
+    /// Position of an END_VAR that was looked for.
+    pub(super) end_var: usize,
     library: bool,
 }
 
@@ -45,10 +48,12 @@ impl<'a> Parser<'a> {
             lost: false,
             last_error: usize::MAX,
             depth: 0,
+            statement_depth: 0,
             open: Vec::new(),
             unwinding: false,
             named: HashSet::new(),
             misspelt: HashSet::new(),
+            end_var: 0,
             library,
         }
     }
@@ -147,6 +152,18 @@ impl<'a> Parser<'a> {
     pub(super) fn leave(&mut self) {
         self.depth -= 1;
     }
+    /// As [`Parser::enter`], for a statement.
+    pub(super) fn enter_statement(&mut self) -> bool {
+        self.statement_depth += 1;
+        if self.statement_depth > MAX_DEPTH {
+            self.too_deep(format!("more than {MAX_DEPTH} statements inside of one another"));
+            return false;
+        }
+        true
+    }
+    pub(super) fn leave_statement(&mut self) {
+        self.statement_depth -= 1;
+    }
     pub(super) fn too_deep(&mut self, label: String) {
         let diag = Diag::new(Code::NestedTooDeep, self.here(), label);
         self.error(diag.help("split it: give a part its own variable, function or type"));
@@ -161,7 +178,7 @@ impl<'a> Parser<'a> {
     }
     /// Reports a mistake that the parser understands: it goes on as if the right thing stood there.
     pub(super) fn soft(&mut self, diag: Diag) {
-        let reported_by_lexer = self.at(Tok::Error);
+        let reported_by_lexer = self.at(Tok::Error) || self.at_end() && self.tokens.cut;
         if !self.lost && !reported_by_lexer && self.last_error != self.pos {
             self.last_error = self.pos;
             self.report.push(diag);
@@ -208,11 +225,13 @@ impl<'a> Parser<'a> {
 
     /// A name that is declared here; `what` says of what. A keyword is reported once and then is a name.
     pub(super) fn declared_name(&mut self, what: &str) -> Option<Name> {
-        if !self.at(Tok::Word) {
+        let kw = self.kw();
+        let is_named = matches!(self.nth(1).kind, Tok::Colon | Tok::Comma | Tok::Assign) || self.nth(1).kw == Kw::At;
+        if !self.at(Tok::Word) || (kw.ends_statements() || kw.opens_statement()) && !is_named {
             self.expected(what);
             return None;
         }
-        if self.kw().is_reserved() {
+        if kw.is_reserved() {
             self.keyword_as_name(what);
         }
         Some(self.name())

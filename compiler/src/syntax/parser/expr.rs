@@ -1,12 +1,11 @@
-//! Expressions: precedence climbing over unary, postfix and primary forms.
+//! Expressions: precedence climbing over unary forms.
 //! From: IEC 61131-3 §7.3.2 (language reference §5.1, §5.2).
 
 use super::cursor::Parser;
-use super::literal::{fold_sign, problem_diag};
-use crate::syntax::ast::{AddressSize, Arg, BinaryOp, Expr, ExprKind, Literal, Name, UnaryOp};
+use super::literal::fold_sign;
+use crate::syntax::ast::{BinaryOp, Expr, ExprKind, UnaryOp};
 use crate::syntax::keyword::Kw;
 use crate::syntax::lexer::Tok;
-use crate::syntax::literal::address;
 use takt_base::Span;
 use takt_base::diag::{Code, Diag};
 
@@ -14,16 +13,16 @@ use takt_base::diag::{Code, Diag};
 pub(super) const MAX_HEIGHT: u32 = 256;
 
 /// An expression and the height of its tree.
-struct Tree {
-    expr: Expr,
-    height: u32,
+pub(super) struct Tree {
+    pub(super) expr: Expr,
+    pub(super) height: u32,
 }
 
 impl Tree {
-    fn leaf(expr: Expr) -> Self {
+    pub(super) fn leaf(expr: Expr) -> Self {
         Self { expr, height: 1 }
     }
-    fn error(span: Span) -> Self {
+    pub(super) fn error(span: Span) -> Self {
         Self::leaf(error(span))
     }
 }
@@ -64,7 +63,7 @@ impl Parser<'_> {
         tree.expr
     }
 
-    fn binary(&mut self, min: u8) -> Tree {
+    pub(super) fn binary(&mut self, min: u8) -> Tree {
         let start = self.here();
         if !self.enter() {
             self.leave();
@@ -91,7 +90,7 @@ impl Parser<'_> {
     }
 
     /// A node over others of `height`; an error node if the tree gets too high.
-    fn grown(&mut self, expr: Expr, height: u32) -> Tree {
+    pub(super) fn grown(&mut self, expr: Expr, height: u32) -> Tree {
         if height < MAX_HEIGHT {
             return Tree { expr, height: height + 1 };
         }
@@ -169,270 +168,4 @@ impl Parser<'_> {
     fn is_formal_call(&self) -> bool {
         self.nth(1).kind == Tok::LParen && self.nth(2).kind == Tok::Word && self.nth(3).kind == Tok::Assign
     }
-
-    fn postfix(&mut self) -> Tree {
-        let mut tree = self.primary();
-        let callable = !matches!(tree.expr.kind, ExprKind::Literal(_));
-        while !self.lost && callable {
-            tree = match self.kind() {
-                Tok::Dot => self.member(tree),
-                Tok::LBracket => self.index(tree),
-                Tok::LParen => self.call(tree),
-                Tok::Caret => {
-                    self.unsupported_here("dereferencing (^)");
-                    self.bump();
-                    Tree::error(self.since(tree.expr.span))
-                }
-                _ => break,
-            };
-        }
-        tree
-    }
-
-    /// `.name`, `.3`, `.%X3`; the dot is the current token.
-    fn member(&mut self, base: Tree) -> Tree {
-        self.bump();
-        let start = base.expr.span;
-        let token = self.peek();
-        let kind = match token.kind {
-            Tok::Word => {
-                let name = self.name();
-                ExprKind::Member(Box::new(base.expr), name)
-            }
-            Tok::Int => {
-                self.bump();
-                match self.text_of(token).parse() {
-                    Ok(index) => ExprKind::Part { base: Box::new(base.expr), size: AddressSize::Bit, index },
-                    Err(_) => self.bad_part(token),
-                }
-            }
-            Tok::Direct => {
-                self.bump();
-                match address::partial(self.text_of(token)) {
-                    Ok((size, index)) => ExprKind::Part { base: Box::new(base.expr), size, index },
-                    Err(problem) => {
-                        self.soft(problem_diag(problem, self.span_of(token)));
-                        ExprKind::Error
-                    }
-                }
-            }
-            _ => {
-                self.expected("the name of a member, or the number of a bit, behind the point");
-                return Tree::error(start);
-            }
-        };
-        let span = self.since(start);
-        self.grown(Expr { kind, span }, base.height)
-    }
-
-    fn bad_part(&mut self, token: crate::syntax::lexer::Token) -> ExprKind {
-        self.soft(Diag::new(Code::BadAddress, self.span_of(token), "not the number of a bit"));
-        ExprKind::Error
-    }
-
-    fn index(&mut self, base: Tree) -> Tree {
-        let bracket = self.here();
-        self.bump();
-        let start = base.expr.span;
-        let (mut list, mut height) = (Vec::new(), base.height);
-        loop {
-            let tree = self.binary(1);
-            height = height.max(tree.height);
-            list.push(tree.expr);
-            if !self.eat(Tok::Comma) {
-                break;
-            }
-        }
-        self.closing(Tok::RBracket, "]", bracket);
-        let span = self.since(start);
-        self.grown(Expr { kind: ExprKind::Index(Box::new(base.expr), list), span }, height)
-    }
-
-    fn call(&mut self, callee: Tree) -> Tree {
-        let paren = self.here();
-        self.bump();
-        let start = callee.expr.span;
-        let (args, height) = self.args(paren);
-        let span = self.since(start);
-        let kind = ExprKind::Call { callee: Box::new(callee.expr), args };
-        self.grown(Expr { kind, span }, height.max(callee.height))
-    }
-
-    /// Arguments and the closing parenthesis; the opening one, at `paren`, is taken. With the height of the highest.
-    fn args(&mut self, paren: Span) -> (Vec<Arg>, u32) {
-        let (mut args, mut height) = (Vec::new(), 0);
-        if self.eat(Tok::RParen) {
-            return (args, height);
-        }
-        loop {
-            args.push(self.arg(&mut height));
-            if self.lost || !self.eat(Tok::Comma) {
-                break;
-            }
-        }
-        self.closing(Tok::RParen, ")", paren);
-        (args, height)
-    }
-
-    /// The arguments of a program in a resource; the opening parenthesis is the current token.
-    pub(super) fn connections(&mut self) -> Vec<Arg> {
-        let paren = self.here();
-        self.bump();
-        self.args(paren).0
-    }
-
-    fn arg(&mut self, height: &mut u32) -> Arg {
-        let negated = self.kw() == Kw::Not && self.nth(1).kind == Tok::Word && self.nth(2).kind == Tok::Arrow;
-        if negated {
-            self.bump();
-        }
-        let is_word = self.at(Tok::Word);
-        match self.nth(1).kind {
-            Tok::Assign if is_word => {
-                let name = self.name();
-                self.bump();
-                Arg::Input { name, value: self.arg_value(height) }
-            }
-            Tok::Arrow if is_word => {
-                let name = self.name();
-                self.bump();
-                Arg::Output { name, negated, target: self.arg_value(height) }
-            }
-            Tok::RefAssign if is_word => {
-                self.bump();
-                self.unsupported_here("assignment attempt (?=)");
-                self.bump();
-                Arg::Positional(self.expr())
-            }
-            _ => {
-                let tree = self.binary(1);
-                *height = tree.height.max(*height);
-                Arg::Positional(tree.expr)
-            }
-        }
-    }
-
-    /// The value of a named argument, which may be left out (vendor).
-    fn arg_value(&mut self, height: &mut u32) -> Option<Expr> {
-        if self.at(Tok::Comma) || self.at(Tok::RParen) {
-            return None;
-        }
-        let tree = self.binary(1);
-        *height = tree.height.max(*height);
-        Some(tree.expr)
-    }
-
-    /// The closing bracket of the one at `opener`.
-    pub(super) fn closing(&mut self, kind: Tok, text: &str, opener: Span) {
-        if self.eat(kind) || self.lost {
-            return;
-        }
-        let what = format!("`{text}`");
-        let fits = matches!(self.kind(), Tok::Semi | Tok::Eof) || self.is_first_on_line() || self.kw().is_reserved();
-        let diag = if fits { self.missing_diag(&what) } else { self.expected_diag(&what) };
-        let diag = diag.also(opener, "the bracket is opened here");
-        if fits && !self.at_end() {
-            self.soft(diag);
-        } else {
-            self.error(diag);
-        }
-    }
-
-    fn primary(&mut self) -> Tree {
-        if let Some(literal) = self.literal() {
-            return Tree::leaf(literal);
-        }
-        let token = self.peek();
-        match token.kind {
-            Tok::Word => self.word(),
-            Tok::LParen => self.parenthesised(),
-            Tok::Direct => Tree::leaf(self.direct()),
-            Tok::Error => {
-                self.lost = true; // reported by the lexer
-                self.bump();
-                Tree::error(self.span_of(token))
-            }
-            _ => self.no_operand(),
-        }
-    }
-
-    fn parenthesised(&mut self) -> Tree {
-        let start = self.here();
-        self.bump();
-        let inner = self.binary(1);
-        if self.at(Tok::Assign) {
-            self.unsupported_here("an assignment inside of an expression");
-            self.lost = true;
-        }
-        self.closing(Tok::RParen, ")", start);
-        Tree { expr: Expr { span: self.since(start), ..inner.expr }, height: inner.height }
-    }
-
-    /// A direct address such as `%IX1.2`.
-    fn direct(&mut self) -> Expr {
-        let token = self.bump();
-        let span = self.span_of(token);
-        match address::direct(self.text_of(token), span) {
-            Ok(address) => Expr { kind: ExprKind::Direct(address), span },
-            Err(problem) => {
-                self.soft(problem_diag(problem, span));
-                error(span)
-            }
-        }
-    }
-
-    /// A name, TRUE, FALSE, or a keyword that is a function when a parenthesis follows.
-    fn word(&mut self) -> Tree {
-        let token = self.peek();
-        let span = self.span_of(token);
-        let kind = match token.kw {
-            Kw::True | Kw::False => {
-                self.bump();
-                return Tree::leaf(Expr { kind: ExprKind::Literal(Literal::Bool(token.kw == Kw::True)), span });
-            }
-            Kw::Null | Kw::Ref | Kw::This | Kw::Super if !self.is_used_as_name(token.kw) => {
-                self.unsupported_here(match token.kw {
-                    Kw::Null | Kw::Ref => "a reference",
-                    _ => "object orientation",
-                });
-                self.bump();
-                ExprKind::Error
-            }
-            kw if !kw.is_reserved() || self.is_used_as_name(kw) => ExprKind::Name(self.name()),
-            kw if (is_function(kw) || kw.is_type()) && self.nth(1).kind == Tok::LParen => ExprKind::Name(self.bare_name()),
-            _ => return self.no_operand(),
-        };
-        Tree::leaf(Expr { kind, span })
-    }
-
-    /// The current word as written, without the checks for names.
-    fn bare_name(&mut self) -> Name {
-        let token = self.bump();
-        Name { text: self.text_of(token).to_owned(), span: self.span_of(token) }
-    }
-
-    fn no_operand(&mut self) -> Tree {
-        let span = self.here();
-        if self.at(Tok::Dot) && self.nth(1).kind == Tok::Int && self.nth(1).start == span.end {
-            let digits = self.text_of(self.nth(1));
-            let diag = Diag::new(Code::BadNumber, span.to(self.span_of(self.nth(1))), "a digit is missing before the point");
-            self.soft(diag.help(format!("write 0.{digits}")));
-            self.bump();
-            self.bump();
-            return Tree::error(self.since(span));
-        }
-        let diag = self.expected_diag("an expression");
-        self.error(match (self.prev().kind, self.kind()) {
-            (Tok::Eq, Tok::Lt) => diag.help("write <="),
-            (Tok::Eq, Tok::Gt) => diag.help("write >="),
-            (Tok::Gt, Tok::Lt) => diag.help("write <>"),
-            _ => diag,
-        });
-        Tree::error(span)
-    }
-}
-
-/// Keywords that are also functions: `AND(a, b)`.
-fn is_function(kw: Kw) -> bool {
-    matches!(kw, Kw::And | Kw::Or | Kw::Xor | Kw::Mod | Kw::Not)
 }

@@ -46,8 +46,13 @@ impl Parser<'_> {
                 break;
             }
         }
-        if !self.lost {
-            self.expect(Tok::Colon, "`:` behind the CASE label");
+        if !self.lost && !self.eat(Tok::Colon) {
+            if self.at(Tok::Word) || self.is_first_on_line() {
+                let diag = self.missing_diag("`:`").message("expected `:` behind the CASE label");
+                self.soft(diag);
+            } else {
+                self.expected("`:` behind the CASE label");
+            }
         }
         if self.lost {
             self.skip_label();

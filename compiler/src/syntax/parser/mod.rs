@@ -9,6 +9,8 @@ mod expr;
 mod init;
 mod literal;
 mod loops;
+mod operand;
+mod postfix;
 mod recover;
 mod stmt;
 mod types;

@@ -63,10 +63,7 @@ impl Parser<'_> {
             }
             self.bump();
         }
-        if self.eat_kw(kw) || !self.eat(Tok::Semi) {
-            self.found_place();
-            return;
-        }
+        let _ = self.eat_kw(kw) || self.eat(Tok::Semi);
         self.found_place();
     }
 
@@ -158,6 +155,8 @@ impl Parser<'_> {
                     break;
                 }
                 depth -= 1;
+            } else if depth == 0 && matches!(kw, Kw::Else | Kw::Elsif | Kw::Until) {
+                break;
             } else if kw.opens_declaration() || kw.is_section() || kw.ends_declaration() {
                 self.unwinding = true;
                 break;
@@ -175,6 +174,7 @@ impl Parser<'_> {
 fn ends_skipped(open: Kw, kw: Kw) -> bool {
     match open {
         Kw::Namespace => false,
+        Kw::Resource => kw.opens_declaration() && kw != Kw::Program || kw == Kw::EndProgram,
         Kw::Class | Kw::Interface | Kw::Function | Kw::FunctionBlock | Kw::Program => {
             matches!(
                 kw,

@@ -74,13 +74,13 @@ impl Parser<'_> {
     /// A statement with its `;`.
     fn statement(&mut self) -> Stmt {
         let start = self.here();
-        if !self.enter() {
-            self.leave();
+        if !self.enter_statement() {
+            self.leave_statement();
             self.skip_nested();
             return Stmt { kind: StmtKind::Error, span: start };
         }
         let kind = self.statement_kind();
-        self.leave();
+        self.leave_statement();
         let span = self.since(start);
         if !matches!(kind, StmtKind::Empty) {
             self.terminator();
@@ -106,7 +106,9 @@ impl Parser<'_> {
             Kw::Continue => self.one_word(StmtKind::Continue),
             Kw::Return => self.return_statement(),
             Kw::Jmp if self.nth(1).kind == Tok::Word => self.unsupported_statement("JMP"),
-            _ if self.at(Tok::Word) && self.nth(1).kind == Tok::Colon => self.unsupported_statement("a label"),
+            _ if self.at(Tok::Word) && self.nth(1).kind == Tok::Colon && self.nth(2).kind != Tok::Eq => {
+                self.unsupported_statement("a label")
+            }
             _ => self.assign_or_call(),
         }
     }
@@ -141,7 +143,7 @@ impl Parser<'_> {
         if self.lost {
             return self.skip_statement();
         }
-        if self.eat(Tok::Semi) || self.prev().kw.ends_statement() {
+        if self.eat(Tok::Semi) || self.prev().kw.ends_statement() || self.unwinding {
             return;
         }
         if self.prev().kind == Tok::Colon {
@@ -273,7 +275,6 @@ impl Parser<'_> {
     }
 
     fn if_statement(&mut self) -> StmtKind {
-        let behind_else = self.prev().kw == Kw::Else && self.pos > 0;
         let opener = self.here();
         self.bump();
         self.open.push(Kw::EndIf);
@@ -281,8 +282,10 @@ impl Parser<'_> {
         while let Some(elsif) = self.elsif() {
             branches.push(self.branch(elsif, "ELSIF"));
         }
-        let otherwise = if self.eat_kw(Kw::Else) { self.statements(false) } else { Vec::new() };
-        let help = behind_else.then_some("ELSE IF opens a second IF with an END_IF of its own; ELSIF does not");
+        let has_else = self.eat_kw(Kw::Else);
+        let is_else_if = has_else && self.kw() == Kw::If && !self.is_first_on_line();
+        let otherwise = if has_else { self.statements(false) } else { Vec::new() };
+        let help = is_else_if.then_some("ELSE IF opens a second IF with an END_IF of its own; write ELSIF");
         self.close(Kw::EndIf, opener, "IF", help);
         StmtKind::If { branches, otherwise }
     }

@@ -115,8 +115,8 @@ impl Parser<'_> {
     }
 
     fn named(&mut self) -> TypeRefKind {
-        let token = self.bump();
-        let name = Name { text: self.text_of(token).to_owned(), span: self.span_of(token) };
+        let is_type = self.kw().is_type();
+        let name = self.bare_name();
         if self.at(Tok::Dot) {
             self.unsupported_here("a name in a namespace");
             while self.eat(Tok::Dot) && self.at(Tok::Word) {
@@ -129,7 +129,7 @@ impl Parser<'_> {
         }
         let is_list = self.nth(1).kind == Tok::Word && matches!(self.nth(2).kind, Tok::Assign | Tok::Comma | Tok::RParen);
         match is_list {
-            true if token.kw.is_type() => self.enumeration(Some(name)),
+            true if is_type => self.enumeration(Some(name)),
             true => {
                 self.unsupported_here("initialising an instance with arguments");
                 self.connections();
@@ -227,15 +227,10 @@ impl Parser<'_> {
         }
         self.closing(Tok::RParen, ")", paren);
         let base = match base {
-            None if self.kw().is_type() && !self.lost => Some(self.plain_type_name()),
+            None if self.kw().is_type() && !self.lost => Some(self.bare_name()),
             base => base,
         };
         TypeRefKind::Enum(EnumDecl { base, values, span: self.since(start) })
-    }
-
-    fn plain_type_name(&mut self) -> Name {
-        let token = self.bump();
-        Name { text: self.text_of(token).to_owned(), span: self.span_of(token) }
     }
 
     fn structure(&mut self) -> TypeRefKind {

@@ -87,12 +87,27 @@ impl Parser<'_> {
     }
 
     /// True if a statement stands here: END_VAR is missing. `x := 1;` counts only if no END_VAR follows.
-    fn is_statement(&self) -> bool {
+    fn is_statement(&mut self) -> bool {
         let next = self.nth(1).kind;
         if self.kw().opens_statement() {
             return !matches!(next, Tok::Colon | Tok::Comma) && self.nth(1).kw != Kw::At;
         }
+        if self.at(Tok::Word) && next == Tok::Assign {
+            return !self.end_var_follows();
+        }
         self.at(Tok::Word) && matches!(next, Tok::Dot | Tok::LBracket | Tok::LParen)
+    }
+
+    /// True if this section is closed. Remembers where, so that many mistakes in one section do not look for it again and again.
+    fn end_var_follows(&mut self) -> bool {
+        if self.pos < self.end_var {
+            return true;
+        }
+        let ends = |kw: Kw| kw.is_section() || kw.ends_declaration() || kw.opens_declaration();
+        let found = self.tokens.list[self.pos..].iter().position(|t| ends(t.kw));
+        let found = found.filter(|&i| self.tokens.list[self.pos + i].kw == Kw::EndVar);
+        self.end_var = found.map_or(0, |i| self.pos + i);
+        found.is_some()
     }
 
     /// A declaration with its `;`. On a mistake the parser has skipped to the next one.
@@ -108,6 +123,11 @@ impl Parser<'_> {
 
     fn var_decl_inner(&mut self) -> Option<VarDecl> {
         let start = self.here();
+        if self.kw().is_type() && self.nth(1).kind == Tok::Word && self.nth(1).kw != Kw::At {
+            let ty = self.bare_name();
+            self.no_colon(&[ty]);
+            return None;
+        }
         let names = if self.kw() == Kw::At { Vec::new() } else { self.names()? };
         let at = if self.eat_kw(Kw::At) { self.located()? } else { None };
         if !self.at(Tok::Colon) {
@@ -142,7 +162,7 @@ impl Parser<'_> {
         let span = self.span_of(token);
         let address = match address::direct(self.text_of(token), span) {
             Ok(address) => Some(address),
-            Err(_) if address::partial(self.text_of(token)).is_ok() => {
+            Err(_) if address::is_relative(self.text_of(token)) => {
                 self.unsupported_here("a relative address in a structure");
                 None
             }

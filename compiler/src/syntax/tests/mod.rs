@@ -1,7 +1,14 @@
 //! Tests of text to tree: cases are texts, trees are printed as s-expressions.
 
+mod decls;
+mod exprs;
+mod lexis;
+mod limits;
+mod mistakes;
 mod print;
+mod recovery;
 mod smoke;
+mod stmts;
 
 use super::ast::File;
 use takt_base::Sources;
