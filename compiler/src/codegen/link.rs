@@ -64,6 +64,17 @@ fn trap_number(code: TrapCode) -> u8 {
     trap as u8
 }
 
+impl Compiled {
+    /// Lines, and the first line of the unit for the trap of its prologue, which stands behind the function and has none.
+    fn lines_with_prologue(&self, first: Option<LineId>) -> Vec<(u32, LineId)> {
+        let overflows = self.traps.iter().filter(|&&(_, trap)| trap == Trap::StackOverflow as u8);
+        let prologue = overflows.filter_map(|&(offset, _)| first.map(|line| (offset, line)));
+        let mut lines: Vec<_> = prologue.chain(self.lines.iter().copied()).collect();
+        lines.sort_by_key(|&(offset, _)| offset);
+        lines
+    }
+}
+
 /// Collects functions in the order of their ids.
 pub(super) struct Linker<'m> {
     module: &'m Module,
@@ -87,7 +98,7 @@ impl<'m> Linker<'m> {
         self.out.functions.push(Function { pou: f.pou.clone(), start: base, size });
         self.out.traps.extend(compiled.traps.iter().map(|&(offset, trap)| TrapSite { offset: base + offset, trap }));
         self.calls.extend(compiled.calls.iter().map(|c| (start + c.offset as usize, c.callee)));
-        self.lines(base, f.first_line(), &compiled.lines);
+        self.lines(base, f.first_line(), &compiled.lines_with_prologue(f.first_line()));
     }
 
     /// Lines of a function. The prologue belongs to the first one.

@@ -1,3 +1,4 @@
+//! Tables of the generated code: lines, traps, calls, sameness.
 use super::{Code, clif, disassemble, emit};
 use crate::mir::model::{FuncId, Module};
 use crate::mir::{text, verify};
