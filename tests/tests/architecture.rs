@@ -40,8 +40,7 @@ const UNSAFE: &[&str] = &[
     "base/src/ring.rs",
     "runtime/src/load",
     "runtime/src/fault",
-    "runtime/src/clock.rs",
-    "runtime/src/thread",
+    "runtime/src/os.rs",
     "compiler/tests/",
     "runtime/tests/",
     "motion/tests/",
@@ -78,6 +77,17 @@ fn collect(dir: &Path, files: &mut BTreeMap<String, String>) {
 fn code(text: &str) -> impl Iterator<Item = (usize, &str)> {
     let product = text.split("#[cfg(test)]\nmod ").next().unwrap_or(text);
     product.lines().enumerate().map(|(i, l)| (i + 1, l.split("//").next().unwrap_or("")))
+}
+
+/// Without functions called `new`: they run before the start.
+fn without_set_up<'a>(lines: impl Iterator<Item = (usize, &'a str)>) -> impl Iterator<Item = (usize, &'a str)> {
+    let mut inside = false;
+    lines.filter(move |(_, l)| {
+        inside |= l.contains("fn new(");
+        let skipped = inside;
+        inside &= *l != "    }";
+        !skipped
+    })
 }
 
 fn dependencies(krate: &str) -> Vec<String> {
@@ -122,49 +132,64 @@ fn only_the_clock_reads_a_clock() {
 
 #[test]
 fn cyclic_modules_do_not_allocate_lock_or_log() {
-    let mut checked = 0;
+    let (mut checked, mut wrong) = (0, Vec::new());
     for (file, text) in rust_files() {
         let head: String = text.lines().take_while(|l| l.starts_with("//!")).collect();
         if !head.contains("Runs: cyclic") {
             continue;
         }
         checked += 1;
-        for (line, l) in code(&text) {
+        for (line, l) in without_set_up(code(&text)) {
             if let Some(word) = BANNED_IN_CYCLIC.iter().find(|w| l.contains(**w)) {
-                panic!("{file}:{line} is cyclic and uses {word}");
+                wrong.push(format!("{file}:{line} is cyclic and uses {word}"));
             }
         }
     }
     assert!(checked >= 5, "the heads of cyclic modules were not found");
+    none(&wrong);
 }
 
 #[test]
 fn unsafe_stands_where_it_is_allowed() {
+    let mut wrong = Vec::new();
     for (file, text) in rust_files() {
-        if UNSAFE.iter().any(|prefix| file.starts_with(prefix)) {
+        if UNSAFE.iter().any(|prefix| file.starts_with(prefix)) || file == "tests/tests/architecture.rs" {
             continue;
         }
         for (line, l) in code(&text) {
             let word =
                 l.contains("unsafe {") || l.contains("unsafe fn") || l.contains("unsafe impl") || l.contains("unsafe extern");
-            assert!(!word, "{file}:{line} is unsafe");
+            if word {
+                wrong.push(format!("{file}:{line} is unsafe"));
+            }
         }
     }
+    none(&wrong);
 }
 
 #[test]
 fn files_have_a_head_and_stay_short() {
+    let mut wrong = Vec::new();
     for (file, text) in rust_files() {
-        assert!(text.starts_with("//!"), "{file} does not say what it is");
+        let unit_tests = file.ends_with("tests.rs");
+        if !text.starts_with("//!") && !unit_tests {
+            wrong.push(format!("{file} does not say what it is"));
+        }
         let lines = text.lines().count();
-        assert!(lines <= 600, "{file} has {lines} lines: is it still one room with one purpose?");
+        if lines > 600 {
+            wrong.push(format!("{file} has {lines} lines: is it still one room with one purpose?"));
+        }
     }
+    none(&wrong);
 }
 
 #[test]
 fn every_page_of_a_code_is_written() {
-    for code in takt_base::Code::ALL {
-        let lines = code.page().lines().count();
-        assert!(lines >= 4, "docs/codes/{}.md says too little", code.text());
-    }
+    let short = takt_base::Code::ALL.iter().filter(|c| c.page().lines().count() < 4);
+    none(&short.map(|c| format!("docs/codes/{}.md says too little", c.text())).collect::<Vec<_>>());
+}
+
+/// Fails with the whole list.
+fn none(wrong: &[String]) {
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
