@@ -8,3 +8,4 @@ pub mod mir_gen;
 pub mod mir_run;
 pub mod plc;
 pub mod rng;
+pub mod workloads;
