@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 use takt_base::Nanos;
-use takt_compiler::codegen::{Code, emit};
+use takt_compiler::codegen::{Code, Effort, emit_with};
 use takt_compiler::mir::Interpreter;
 use takt_compiler::mir::model::{FuncId, Module};
 use takt_image::image::Target;
@@ -57,8 +57,8 @@ fn hash(args: &[u64]) -> u64 {
 }
 
 /// The image of a module without symbols or tasks.
-pub fn image(module: &Module, memory: MemoryMap) -> Result<Image, String> {
-    let Code { functions, code, traps, lines } = emit(module)?;
+pub fn image(module: &Module, memory: MemoryMap, effort: Effort) -> Result<Image, String> {
+    let Code { functions, code, traps, lines } = emit_with(module, effort)?;
     let natives = module.natives.as_slice().to_vec();
     let files = module.files.clone();
     Ok(Image { target: Target::X86_64V2, memory, natives, functions, code, traps, lines, files, ..Image::default() })
@@ -74,8 +74,13 @@ pub fn interpret(module: &Arc<Module>, map: MemoryMap, contents: &[u8], function
 
 /// Runs a function of one I32 parameter as native code.
 pub fn native(module: &Module, map: MemoryMap, contents: &[u8], function: FuncId, argument: u32) -> Outcome {
+    native_with(module, Effort::Full, map, contents, function, argument)
+}
+
+/// Runs a function of one I32 parameter as native code that was made with this effort.
+pub fn native_with(module: &Module, effort: Effort, map: MemoryMap, contents: &[u8], function: FuncId, argument: u32) -> Outcome {
     let mut natives = TestNatives::default();
-    let image = image(module, map).expect("module compiles");
+    let image = image(module, map, effort).expect("module compiles");
     let mut engine = NativeEngine::new(&image, &mut natives).expect("image loads");
     run(&mut engine, &mut natives, map, contents, function, argument)
 }

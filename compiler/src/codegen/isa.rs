@@ -19,6 +19,16 @@ pub(super) fn successors(end: &End) -> impl Iterator<Item = BlockId> {
     cases.iter().map(|c| c.1).chain(rest.into_iter().flatten())
 }
 
+/// How much work the compiler puts into the code.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub enum Effort {
+    /// Optimised code.
+    #[default]
+    Full,
+    /// Everything as it stands: compiled two to three times faster, runs 2-4 times slower. What giants always get.
+    Quick,
+}
+
 /// The target: for functions of usual size, and for giants.
 pub(super) struct Target {
     usual: OwnedTargetIsa,
@@ -27,7 +37,7 @@ pub(super) struct Target {
 
 /// Instructions and blocks from which on a function is a giant. Optimiser and register allocator take time with the square of a
 /// chain of dependent instructions, or of the blocks through which a local lives: seconds here, hours at ten times the size. A giant
-/// is compiled as it stands, in a time that grows with its size alone, and runs 2-3 times slower.
+/// is compiled as it stands, in a time that grows with its size alone, and runs 2-4 times slower.
 const GIANT: (usize, usize) = (40_000, 8_000);
 
 fn is_giant(f: &Function) -> bool {
@@ -41,8 +51,8 @@ impl Target {
     }
 
     /// How to compile this function.
-    pub(super) fn isa(&self, f: &Function) -> &dyn TargetIsa {
-        if is_giant(f) { &*self.giant } else { &*self.usual }
+    pub(super) fn isa(&self, f: &Function, effort: Effort) -> &dyn TargetIsa {
+        if effort == Effort::Quick || is_giant(f) { &*self.giant } else { &*self.usual }
     }
 
     pub(super) fn frontend(&self) -> TargetFrontendConfig {

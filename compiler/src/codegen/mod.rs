@@ -15,6 +15,8 @@ mod link;
 mod ops;
 mod strings;
 
+pub use isa::Effort;
+
 use crate::mir::model::{FuncId, Module};
 use cranelift_codegen::Context;
 use cranelift_codegen::control::ControlPlane;
@@ -42,24 +44,29 @@ pub struct Code {
 /// Functions for which another thread is worth its start.
 const FUNCTIONS_PER_THREAD: usize = 64;
 
-/// Compiles a verified module. An error is a fault of the compiler, not of the user.
+/// Compiles a verified module with full effort. An error is a fault of the compiler, not of the user.
 pub fn emit(module: &Module) -> Result<Code, String> {
+    emit_with(module, Effort::Full)
+}
+
+/// Compiles a verified module.
+pub fn emit_with(module: &Module, effort: Effort) -> Result<Code, String> {
     let target = Target::new()?;
     let mut linker = Linker::new(module);
-    for compiled in compile_all(module, &target) {
+    for compiled in compile_all(module, &target, effort) {
         linker.add(compiled?);
     }
     linker.finish()
 }
 
 /// All functions in order, on as many threads as are worth it.
-fn compile_all(module: &Module, target: &Target) -> Vec<Result<Compiled, String>> {
+fn compile_all(module: &Module, target: &Target, effort: Effort) -> Vec<Result<Compiled, String>> {
     let count = module.functions.len();
     let threads = thread::available_parallelism().map_or(1, NonZero::get).min(count / FUNCTIONS_PER_THREAD + 1);
     let ids: Vec<FuncId> = module.functions.indices().collect();
     let compile = |ids: &[FuncId]| {
         let mut compiler = Compiler::new(module, target);
-        ids.iter().map(|&id| compiler.compile(id)).collect::<Vec<_>>()
+        ids.iter().map(|&id| compiler.compile(id, effort)).collect::<Vec<_>>()
     };
     if threads == 1 {
         return compile(&ids);
@@ -85,7 +92,7 @@ pub fn disassemble(module: &Module, id: FuncId) -> Result<String, String> {
     let mut compiler = Compiler::new(module, &target);
     compiler.build(id);
     compiler.context.set_disasm(true);
-    let isa = target.isa(&module.functions[id]);
+    let isa = target.isa(&module.functions[id], Effort::Full);
     let code = compiler.context.compile(isa, &mut ControlPlane::default()).map_err(|e| format!("{:?}", e.inner))?;
     Ok(code.vcode.clone().unwrap_or_default())
 }
@@ -108,10 +115,10 @@ impl<'m> Compiler<'m> {
         function::build(self.module, id, &mut self.context.func, &mut self.builder, self.target.frontend());
     }
 
-    fn compile(&mut self, id: FuncId) -> Result<Compiled, String> {
+    fn compile(&mut self, id: FuncId, effort: Effort) -> Result<Compiled, String> {
         self.build(id);
         let name = &self.module.functions[id].name;
-        let isa = self.target.isa(&self.module.functions[id]);
+        let isa = self.target.isa(&self.module.functions[id], effort);
         let result = self.context.compile(isa, &mut ControlPlane::default());
         let code = result.map_err(|e| format!("function `{name}` ({}): {:?}", id.index(), e.inner))?;
         let buffer = code.buffer.clone();
