@@ -68,6 +68,13 @@ pub(super) fn trap_code(trap: Trap) -> TrapCode {
     TrapCode::user(trap as u8).unwrap_or(TrapCode::HEAP_OUT_OF_BOUNDS)
 }
 
+/// Where the value of a local is kept. A variable takes room for every block in front of its last assignment, which a local that
+/// lives within one block does not need.
+enum Slot {
+    Variable(Variable),
+    Value(Option<Value>),
+}
+
 /// A function under translation.
 pub(super) struct Translator<'m, 'b> {
     pub(super) module: &'m Module,
@@ -82,7 +89,7 @@ pub(super) struct Translator<'m, 'b> {
     pub(super) functions: HashMap<FuncId, FuncRef>,
     /// Signature of the native entry and the slot for arguments and result.
     pub(super) native: Option<(SigRef, StackSlot)>,
-    vars: Vec<Variable>,
+    slots: Vec<Slot>,
     blocks: Vec<ir::Block>,
     /// Edges into each block that are not translated yet.
     open_edges: Vec<usize>,
@@ -95,14 +102,15 @@ impl<'m, 'b> Translator<'m, 'b> {
         b.switch_to_block(entry);
         b.seal_block(entry);
         let (memory, frame) = (b.block_params(entry)[0], b.block_params(entry)[1]);
-        let vars = function.locals.iter().map(|&ty| b.declare_var(clif_type(ty))).collect();
+        let slot = |(&ty, local)| if local { Slot::Value(None) } else { Slot::Variable(b.declare_var(clif_type(ty))) };
+        let slots = function.locals.iter().zip(function.block_local()).map(slot).collect();
         let blocks = function.blocks.iter().map(|_| b.create_block()).collect();
         let mut open_edges = vec![0; function.blocks.len()];
         let ends = function.blocks.iter().map(|b| &b.end);
         ends.flat_map(successors).for_each(|to| open_edges[to.index()] += 1);
         let functions = HashMap::new();
         let frame_address = frame;
-        Self { module, function, b, memory, frame, frame_address, functions, native: None, vars, blocks, open_edges }
+        Self { module, function, b, memory, frame, frame_address, functions, native: None, slots, blocks, open_edges }
     }
 
     /// Defines all locals, checks the frame and goes to block 0.
@@ -119,10 +127,13 @@ impl<'m, 'b> Translator<'m, 'b> {
         }
     }
 
-    /// Parameters get their arguments, all others 0; what is never read costs nothing.
+    /// Parameters get their arguments, all others that outlive a block 0; what is never read costs nothing.
     fn define_locals(&mut self) {
         let mut zeros = HashMap::new();
         for (local, &ty) in self.function.locals.enumerate() {
+            if matches!(self.slots[local.index()], Slot::Value(_)) {
+                continue;
+            }
             let zero = *zeros.entry(ty).or_insert_with(|| zero(&mut self.b, ty));
             self.set(local, zero);
         }
@@ -177,12 +188,19 @@ impl<'m, 'b> Translator<'m, 'b> {
 
     /// Value of a local.
     pub(super) fn get(&mut self, local: Local) -> Value {
-        self.b.use_var(self.vars[local.index()])
+        match self.slots[local.index()] {
+            Slot::Variable(variable) => self.b.use_var(variable),
+            Slot::Value(Some(value)) => value,
+            Slot::Value(None) => unreachable!("a local of one block is written before it is read"),
+        }
     }
 
     /// Assigns a local.
     pub(super) fn set(&mut self, local: Local, value: Value) {
-        self.b.def_var(self.vars[local.index()], value);
+        match &mut self.slots[local.index()] {
+            Slot::Variable(variable) => self.b.def_var(*variable, value),
+            Slot::Value(place) => *place = Some(value),
+        }
     }
 
     /// Machine type of a local.

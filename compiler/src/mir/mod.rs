@@ -9,6 +9,7 @@ pub mod ops;
 pub mod promote;
 pub mod region;
 pub mod text;
+mod uses;
 pub mod verify;
 
 pub use interpret::Interpreter;

@@ -42,12 +42,15 @@ struct Access {
 pub fn promote(f: &mut Function, regions: &Regions, natives: &[NativeImport]) {
     let fixed = assigned_once_as_parameter(f);
     let mut predecessors = predecessors(f);
+    // One register serves a cell in all loops: loops that hold the same cell are never within each other.
+    let mut registers = BTreeMap::new();
     // A change to a loop adds blocks to the loops around it alone, and those are done already.
     for l in loops(f, &predecessors).iter().filter(|l| l.header != BlockId(0)) {
         let Some(accesses) = accesses(f, l, regions, natives, &fixed) else { continue };
         let cells = cells(&accesses, regions);
         if !cells.is_empty() {
-            rewrite(f, l, &cells, &mut predecessors);
+            cells.iter().for_each(|(c, _)| _ = registers.entry(*c).or_insert_with(|| f.locals.push(c.scalar())));
+            rewrite(f, l, &cells, &registers, &mut predecessors);
         }
     }
 }
@@ -56,20 +59,9 @@ pub fn promote(f: &mut Function, regions: &Regions, natives: &[NativeImport]) {
 fn assigned_once_as_parameter(f: &Function) -> Vec<Local> {
     let mut fixed = f.params.clone();
     for inst in f.blocks.iter().flat_map(|b| &b.insts) {
-        fixed.retain(|l| Some(*l) != target(&inst.op));
+        fixed.retain(|l| Some(*l) != inst.op.target());
     }
     fixed
-}
-
-/// The local that an instruction assigns.
-fn target(op: &Op) -> Option<Local> {
-    match op {
-        Op::Int(d, _) | Op::Float(d, _) | Op::Copy(d, _) | Op::Unary(_, d, _) | Op::Binary(_, d, ..) => Some(*d),
-        Op::Compare(_, d, ..) | Op::Convert(_, d, _) | Op::Load(d, _) | Op::Address(d, _) => Some(*d),
-        Op::Select { dst, .. } | Op::CompareString { dst, .. } => Some(*dst),
-        Op::Call { dst, .. } | Op::CallNative { dst, .. } => *dst,
-        Op::Store(..) | Op::CopyBytes { .. } | Op::FillBytes { .. } | Op::CopyString { .. } | Op::TrapIf(..) => None,
-    }
 }
 
 /// All memory accesses of a loop; `None` if it calls somebody who can see memory.
@@ -168,8 +160,8 @@ fn cells(accesses: &[Access], regions: &Regions) -> Vec<(Cell, bool)> {
 }
 
 /// Loads the cells before the loop, replaces their accesses, stores what was written on all ways out.
-fn rewrite(f: &mut Function, l: &Loop, cells: &[(Cell, bool)], predecessors: &mut Predecessors) {
-    let registers: BTreeMap<Cell, Local> = cells.iter().map(|(c, _)| (*c, f.locals.push(c.scalar()))).collect();
+fn rewrite(f: &mut Function, l: &Loop, cells: &[(Cell, bool)], all: &BTreeMap<Cell, Local>, predecessors: &mut Predecessors) {
+    let registers: BTreeMap<Cell, Local> = cells.iter().map(|(c, _)| (*c, all[c])).collect();
     let fixed: Vec<Local> = cells.iter().filter_map(|(c, _)| if let Base::Local(l) = c.base { Some(l) } else { None }).collect();
     for block in &l.blocks {
         let Function { blocks, locals, .. } = &mut *f;

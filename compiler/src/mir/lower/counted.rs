@@ -55,9 +55,9 @@ impl Unit<'_, '_> {
         let loc = self.place(variable);
         let [from, to, by] = values.map(|v| self.held(v));
         let direction = self.direction(values[2], by, e);
-        let register = steady.map(|_| match loc {
+        let register = steady.map(|var| match loc {
             Loc::Register(l) => l,
-            _ => self.f.local(self.f.ty(from)),
+            _ => *self.counter_registers.entry(var).or_insert_with(|| self.f.local(self.f.ty(from))),
         });
         let count = Count { variable: loc, e, register, to, by, direction };
         let (inside, step, done) = (self.f.block(), self.f.block(), self.f.block());

@@ -14,7 +14,7 @@ use crate::mir::model::*;
 use crate::mir::promote::promote;
 use crate::mir::region::{Object, Region};
 use crate::syntax::ast::Edge;
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 use takt_base::index::IndexVec;
 use takt_base::{Code, Diag, Span};
 use takt_image::image::Place as ImagePlace;
@@ -49,6 +49,8 @@ pub struct Unit<'p, 'h> {
     pub homes: IndexVec<VarId, Home>,
     pub loops: Vec<LoopEnds>,
     pub counters: Vec<Counter>,
+    /// Registers of FOR variables in memory; loops of one variable are never within each other.
+    pub counter_registers: HashMap<VarId, Local>,
     /// Where RETURN goes.
     pub exit: BlockId,
     params: Vec<Local>,
@@ -98,6 +100,7 @@ impl<'p, 'h> Unit<'p, 'h> {
             homes: IndexVec::new(),
             loops: Vec::new(),
             counters: Vec::new(),
+            counter_registers: HashMap::new(),
             exit,
             params: Vec::new(),
             outputs: Vec::new(),
