@@ -92,7 +92,7 @@ pub fn picture(title: &str, trace: &Trace, config: &MachineConfig) -> Option<Str
     let path = |actual: usize| trace.rows().map(move |r| [r.values[2 * x + actual], r.values[2 * y + actual]]);
     let end = path(1).last()?;
     let picture = Picture::new(title)
-        .axes(&format!("{}", channel.axes[0]), &format!("{}", channel.axes[1]))
+        .axes(&channel.axes[0], &channel.axes[1])
         .curve("commanded", path(0), Stroke::feed())
         .curve("actual", path(1), Stroke::actual())
         .marker("end", end, "#c00");

@@ -30,6 +30,8 @@ pub(super) struct Compiled {
     traps: Vec<(u32, u8)>,
     /// Offset into the function and line.
     lines: Vec<(u32, LineId)>,
+    /// Offset of the trap of the prologue's stack check, which stands behind the function and has no line.
+    stack_check: Option<u32>,
 }
 
 impl Compiled {
@@ -38,7 +40,8 @@ impl Compiled {
         let traps = buffer.traps().iter().map(|t| (t.offset, trap_number(t.code))).collect();
         let spans = buffer.get_srclocs_sorted().iter().filter(|s| !s.loc.is_default());
         let lines = spans.map(|s| (s.start, LineId(s.loc.bits().wrapping_sub(1)))).collect();
-        Ok(Self { id, bytes: buffer.data().to_vec(), calls, traps, lines })
+        let stack_check = buffer.traps().iter().find(|t| t.code == TrapCode::STACK_OVERFLOW).map(|t| t.offset);
+        Ok(Self { id, bytes: buffer.data().to_vec(), calls, traps, lines, stack_check })
     }
 }
 
@@ -65,11 +68,9 @@ fn trap_number(code: TrapCode) -> u8 {
 }
 
 impl Compiled {
-    /// Lines, and the first line of the unit for the trap of its prologue, which stands behind the function and has none.
-    fn lines_with_prologue(&self, first: Option<LineId>) -> Vec<(u32, LineId)> {
-        let overflows = self.traps.iter().filter(|&&(_, trap)| trap == Trap::StackOverflow as u8);
-        let prologue = overflows.filter_map(|&(offset, _)| first.map(|line| (offset, line)));
-        let mut lines: Vec<_> = prologue.chain(self.lines.iter().copied()).collect();
+    /// Lines, with the first one of the unit for the stack check.
+    fn lines_with_stack_check(&self, first: Option<LineId>) -> Vec<(u32, LineId)> {
+        let mut lines: Vec<_> = self.stack_check.zip(first).into_iter().chain(self.lines.iter().copied()).collect();
         lines.sort_by_key(|&(offset, _)| offset);
         lines
     }
@@ -98,7 +99,7 @@ impl<'m> Linker<'m> {
         self.out.functions.push(Function { pou: f.pou.clone(), start: base, size });
         self.out.traps.extend(compiled.traps.iter().map(|&(offset, trap)| TrapSite { offset: base + offset, trap }));
         self.calls.extend(compiled.calls.iter().map(|c| (start + c.offset as usize, c.callee)));
-        self.lines(base, f.first_line(), &compiled.lines_with_prologue(f.first_line()));
+        self.lines(base, f.first_line(), &compiled.lines_with_stack_check(f.first_line()));
     }
 
     /// Lines of a function. The prologue belongs to the first one.

@@ -1,4 +1,4 @@
-//! The machine-level form of a program: its data ([`model`]), its text ([`text`]), its rules ([`verify`]) and its meaning
+//! The machine-level form of a program: its data ([`model`]), its text ([`text`]), its rules ([`mod@verify`]) and its meaning
 //! ([`interpret`]).
 
 pub mod interpret;

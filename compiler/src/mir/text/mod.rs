@@ -1,4 +1,4 @@
-//! Text form of a module: [`print`] and [`parse`] are inverse to each other.
+//! Text form of a module: [`print()`] and [`parse`] are inverse to each other.
 //!
 //! ```text
 //! file "pump.st"                      ; a comment
