@@ -9,7 +9,7 @@ const CONTACTS: usize = 32;
 /// A rung: indices of its contacts among inputs and earlier coils, and which are negated.
 #[derive(Clone, Copy)]
 pub struct Rung {
-    /// What is read: below [`CONTACTS`] an input, else a coil.
+    /// What is read: below 32 an input, else a coil.
     pub contacts: [usize; 4],
     /// Which of them are negated.
     pub negated: [bool; 4],
