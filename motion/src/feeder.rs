@@ -44,7 +44,7 @@ pub fn ngc_reader() -> Reader {
     })
 }
 
-/// Bytes of a file name in a command: STRING[255].
+/// Bytes of a file name in a command: STRING\[255\].
 pub const NAME_BYTES: usize = 256;
 
 /// From the channel.

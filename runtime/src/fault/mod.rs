@@ -1,6 +1,6 @@
 //! Recovery from faults of generated code: a fault inside the code ends the activation and nothing else.
 //!
-//! Runs: cyclic. [`activate`] notes where it can be left, in [`Activation`], and calls the code. A signal handler that finds the
+//! Runs: cyclic. [`activate`] notes where it can be left, in `Activation`, and calls the code. A signal handler that finds the
 //! faulting instruction inside the code changes the saved registers so that the call returns at once. A fault anywhere else is not
 //! ours and goes to the handler that was there before. The watchdog is a timer on the CPU time of the thread, since wall time passes
 //! without us: it ticks while the thread computes, and an activation that sees too many ticks ends.
