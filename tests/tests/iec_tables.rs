@@ -70,7 +70,7 @@ fn number(text: &str) -> Option<f64> {
         "TRUE" => Some(1.0),
         "FALSE" => Some(0.0),
         _ => {
-            let time = text.strip_prefix("LTIME#").or(text.strip_prefix("T#"));
+            let time = text.strip_prefix("LT#").or(text.strip_prefix("T#"));
             let instant = || parse_time(Elementary::Dt, text);
             text.parse().ok().or_else(|| time.and_then(parse_duration).or_else(instant).map(|ns| ns as f64))
         }
