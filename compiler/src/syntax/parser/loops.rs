@@ -14,16 +14,11 @@ impl Parser<'_> {
         self.open.push(Kw::EndCase);
         let selector = self.condition();
         self.expect_part(Kw::Of, opener, "CASE");
-        let mut arms = Vec::new();
-        while !self.at_end() && self.is_label() {
-            arms.push(self.case_arm());
-        }
+        let mut arms = self.case_arms();
         if arms.is_empty() && !self.kw().ends_statements() && !self.at_end() {
             self.unlabelled();
             self.statements(true);
-            while !self.at_end() && self.is_label() {
-                arms.push(self.case_arm());
-            }
+            arms = self.case_arms();
         }
         let otherwise = self.eat_kw(Kw::Else).then(|| {
             self.eat(Tok::Colon); // ELSE: (vendor)
@@ -36,6 +31,20 @@ impl Parser<'_> {
     fn unlabelled(&mut self) {
         let diag = self.expected_diag("a CASE label");
         self.soft(diag.help("write for example 1: or 2, 4..6: before the statements"));
+    }
+
+    /// A label is a place to go on from, whatever was wrong before it; and each arm takes something.
+    fn case_arms(&mut self) -> Vec<CaseArm> {
+        let mut arms = Vec::new();
+        while !self.at_end() && self.is_label() {
+            self.found_place();
+            let before = self.pos;
+            arms.push(self.case_arm());
+            if self.pos == before {
+                self.bump();
+            }
+        }
+        arms
     }
 
     fn case_arm(&mut self) -> CaseArm {

@@ -175,3 +175,15 @@ fn messages_are_bounded() {
     assert!(bounded(&body(&") ".repeat(100_000))).len() <= 201);
     assert!(bounded(&body(&"x := ;\n".repeat(100_000))).len() <= 201);
 }
+
+/// A mistake before a CASE label once kept the parser at the label for ever.
+#[test]
+fn a_mistake_before_case_labels_ends() {
+    for text in [
+        "PROGRAM p CASE -k OF OF -5. 10..100, 200:",
+        "PROGRAM p CASE OF 1: 2",
+        "PROGRAM p CASE ( OF 1, 2: x := 1; END_CASE; END_PROGRAM",
+    ] {
+        assert!(!codes(text).is_empty());
+    }
+}
