@@ -34,18 +34,44 @@ fn mutated(rng: &mut Rng, text: &[u8]) -> Vec<u8> {
     bytes
 }
 
+/// A number from the environment.
+fn setting(name: &str, default: u64) -> u64 {
+    std::env::var(name).ok().and_then(|v| v.parse().ok()).unwrap_or(default)
+}
+
 fn random(rng: &mut Rng) -> Vec<u8> {
     (0..rng.below(300)).map(|_| rng.bits() as u8).collect()
 }
 
 #[test]
 fn any_bytes_as_st() {
-    let mut rng = Rng::new(std::env::var("TAKT_SEED").ok().and_then(|n| n.parse().ok()).unwrap_or(1));
+    let mut rng = Rng::new(setting("TAKT_SEED", 1));
     let seeds = [BLINK.to_owned(), PLOTTER.to_owned(), program(3, Shape { statements: 4, scalars: 6, units: 1 })];
-    let inputs = std::env::var("TAKT_INPUTS").ok().and_then(|n| n.parse().ok()).unwrap_or(2000);
-    for i in 0..inputs {
+    for i in 0..setting("TAKT_INPUTS", 2000) {
         let seed = &seeds[rng.below(seeds.len())];
         let bytes = if i % 10 == 0 { random(&mut rng) } else { mutated(&mut rng, seed.as_bytes()) };
+        let file = File { name: "x.st".into(), bytes, library: false };
+        let c = compile(Project { name: "x".into(), files: vec![file], attachments: vec![], interval: None, native: false });
+        let wrong = c.diags.iter().any(|d| d.severity == Severity::Error);
+        assert_eq!(wrong, c.image.is_none(), "an image or a reason");
+    }
+}
+
+fn image() -> Image {
+    compile_st(BLINK).image.expect("blink is right")
+}
+
+/// Loads the image if it decodes. It is not run: its code may be anything.
+fn load(bytes: &[u8]) -> Result<(), String> {
+    let image = encode::decode(bytes).map_err(|e| e.to_string())?;
+    let mut natives = Library::new();
+    let engine = NativeEngine::new(&image, &mut natives).map_err(|e| e.to_string())?;
+    let options = Options::default();
+    struct Bare;
+    impl takt_image::Natives for Bare {
+        fn bind(&mut self, _: &takt_image::NativeImport, _: &takt_image::TypeTable) -> Result<u32, takt_image::BindError> {
+            Err(takt_image::BindError::Unknown)
+        }
         fn call(&mut self, _: u32, _: &mut takt_image::NativeCall) -> Result<(), takt_image::Trap> {
             Err(takt_image::Trap::NativePanic)
         }
