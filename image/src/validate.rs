@@ -11,6 +11,8 @@ use crate::types::{Record, Type, TypeId, TypeTable};
 
 /// Deepest nesting of arrays, structures and instances.
 pub const MAX_NESTING: u32 = 128;
+/// Most tasks of a resource.
+pub const MAX_TASKS: usize = 1024;
 /// Values that a type without bytes (an array of empty structures) may have.
 const FREE_VALUES: u64 = 1 << 16;
 
@@ -24,6 +26,7 @@ pub fn validate(image: &Image) -> Check {
     symbols(image)?;
     natives(image)?;
     code(image)?;
+    ensure(image.tasks.len() <= MAX_TASKS, || format!("there are more than {MAX_TASKS} tasks"))?;
     image.tasks.iter().try_for_each(|t| task(image, t))
 }
 
