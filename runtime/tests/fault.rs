@@ -105,7 +105,7 @@ fn endless_loop_is_stopped_by_the_watchdog() {
     assert_eq!(std::thread::spawn(move || run(&asm, 0)).join().unwrap(), fault(Trap::Watchdog, 0, 0, 2));
 }
 
-/// Natives 0: adds its arguments; 1: panics; 2: a string index trap; 3: computes for 40 ms.
+/// Natives 0: adds its arguments; 1: panics; 2: a string index trap; 3: computes for 60 ms.
 struct Four;
 
 impl Natives for Four {
