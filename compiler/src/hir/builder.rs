@@ -1,0 +1,130 @@
+//! What all passes share: the program so far, the names, the current scope, and how to report.
+
+use super::image::ImagePlan;
+use super::model::*;
+use super::scope::Scope;
+use super::symbols::Symbols;
+use std::collections::{HashMap, HashSet};
+use takt_base::{Code, Diag, Severity, Sink, Sources, Span};
+use takt_image::types::{Record, Type};
+use takt_image::{Elementary, TypeId};
+
+/// Nesting of expressions, statements and types together.
+const DEPTH_MAX: u32 = 400;
+/// Scalars in all initial values together that are not zero: keeps the compiler's memory within bounds.
+const LEAVES_MAX: usize = 1 << 22;
+
+/// The program under construction.
+pub(super) struct Builder<'a> {
+    pub sources: &'a Sources,
+    pub sink: &'a mut Sink,
+    pub hir: Hir,
+    pub symbols: Symbols<'a>,
+    pub scope: Scope,
+    /// Stands for a type that was wrong; absorbs whatever follows.
+    pub error: TypeId,
+    /// Default values of declared types; a type that is not here starts as zero.
+    pub defaults: HashMap<TypeId, Const>,
+    /// Enumerations with a declared base: their values are numbers (§2.5).
+    pub named_values: HashSet<TypeId>,
+    /// Anonymous enumerations of global variables.
+    pub global_enums: Vec<TypeId>,
+    /// Located variables and the size of the process image.
+    pub image: ImagePlan,
+    /// Who calls whom, and where.
+    pub calls: Vec<(PouId, PouId, Span)>,
+    leaves: usize,
+    depth: u32,
+}
+
+impl<'a> Builder<'a> {
+    /// Nothing yet.
+    pub fn new(sources: &'a Sources, sink: &'a mut Sink) -> Self {
+        let mut hir = Hir::default();
+        let record = Record { name: "?".to_owned(), fields: Vec::new(), size: 0, align: 1 };
+        let error = hir.types.add(Type::Struct(record));
+        Self {
+            sources,
+            sink,
+            hir,
+            symbols: Symbols::default(),
+            scope: Scope::default(),
+            error,
+            defaults: HashMap::new(),
+            named_values: HashSet::new(),
+            global_enums: Vec::new(),
+            image: ImagePlan::default(),
+            calls: Vec::new(),
+            leaves: 0,
+            depth: 0,
+        }
+    }
+
+    /// Reports; warnings about library files are nobody's business.
+    pub fn report(&mut self, diag: Diag) {
+        if diag.severity == Severity::Error || !self.in_library(diag.span) {
+            self.sink.push(diag);
+        }
+    }
+    /// Reports without help.
+    pub fn error(&mut self, code: Code, span: Span, label: impl Into<String>) {
+        self.report(Diag::new(code, span, label));
+    }
+    /// True for the standard library and generated declarations.
+    pub fn in_library(&self, span: Span) -> bool {
+        self.sources.get(span.source).library
+    }
+    /// A feature that this version does not have.
+    pub fn unsupported(&mut self, span: Span, what: &str, help: &str) {
+        self.report(Diag::new(Code::NotSupportedYet, span, what).help(help));
+    }
+
+    /// Type id of an elementary type.
+    pub fn elem(&mut self, e: Elementary) -> TypeId {
+        self.hir.types.intern(Type::Elementary(e))
+    }
+    /// BOOL.
+    pub fn bool(&mut self) -> TypeId {
+        self.elem(Elementary::Bool)
+    }
+    /// The type itself.
+    pub fn ty(&self, id: TypeId) -> &Type {
+        self.hir.types.get(id)
+    }
+    /// The elementary type that it is, subranges and enumerations excluded.
+    pub fn elementary(&self, id: TypeId) -> Option<Elementary> {
+        if let Type::Elementary(e) = self.ty(id) { Some(*e) } else { None }
+    }
+    /// As the user writes it.
+    pub fn show(&self, id: TypeId) -> String {
+        self.hir.types.display(id)
+    }
+
+    /// Runs `f` one level deeper; `None` and a report if that is too deep.
+    pub fn deeper<T>(&mut self, span: Span, f: impl FnOnce(&mut Self) -> T) -> Option<T> {
+        if self.depth >= DEPTH_MAX {
+            let help = "split it up: name a part of it and use the name";
+            self.report(Diag::new(Code::NestedTooDeep, span, format!("more than {DEPTH_MAX} levels")).help(help));
+            return None;
+        }
+        self.depth += 1;
+        let result = f(self);
+        self.depth -= 1;
+        Some(result)
+    }
+
+    /// Counts initial values; false and a report if there are too many of them.
+    pub fn charge(&mut self, leaves: usize, span: Span) -> bool {
+        let before = self.leaves;
+        self.leaves = before.saturating_add(leaves);
+        if self.leaves <= LEAVES_MAX {
+            return true;
+        }
+        if before <= LEAVES_MAX {
+            let label = format!("more than {LEAVES_MAX} initial values that are not zero");
+            let help = "leave large arrays at zero and fill them in the program";
+            self.report(Diag::new(Code::TypeTooLarge, span, label).help(help));
+        }
+        false
+    }
+}

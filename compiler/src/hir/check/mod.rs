@@ -1,0 +1,14 @@
+//! Rules about whole units and the whole program: one rule, one file.
+
+mod reach;
+mod recursion;
+mod result;
+mod section;
+
+use super::builder::Builder;
+
+/// Rules that need all bodies. Runs last.
+pub(super) fn all(builder: &mut Builder) {
+    reach::mark(builder);
+    recursion::check(builder);
+}

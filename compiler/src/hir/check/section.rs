@@ -1,0 +1,94 @@
+//! Which variable sections, qualifiers and addresses a unit may have (§3.1 to §3.4).
+
+use crate::hir::builder::Builder;
+use crate::syntax::ast::{self, PouKind, SectionKind};
+use takt_base::{Code, Diag, Span};
+use takt_image::types::Type;
+use takt_image::{Elementary, TypeId};
+
+impl Builder<'_> {
+    /// A section of a unit.
+    pub fn check_section(&mut self, pou: &ast::Pou, section: &ast::VarSection) {
+        let function = pou.kind == PouKind::Function;
+        if section.kind == SectionKind::Global {
+            let help = "write VAR_GLOBAL outside of the unit, and VAR_EXTERNAL inside";
+            self.report(Diag::new(Code::SectionNotAllowed, section.span, "VAR_GLOBAL in a unit").help(help));
+        }
+        let kept = matches!(section.kind, SectionKind::Var | SectionKind::Input | SectionKind::Output);
+        if section.retain.is_some() && (function || !kept) {
+            let help = "RETAIN belongs to VAR, VAR_INPUT and VAR_OUTPUT of function blocks and programs, and to VAR_GLOBAL";
+            self.report(Diag::new(Code::SectionNotAllowed, section.span, "nothing here is kept between calls").help(help));
+        } else {
+            self.check_retain_kept(section);
+        }
+        if section.constant && matches!(section.kind, SectionKind::InOut | SectionKind::Output) {
+            self.error(Code::SectionNotAllowed, section.span, "outputs and in-outs can't be CONSTANT");
+        }
+    }
+
+    /// A declaration in a section of a unit.
+    pub fn check_decl(&mut self, pou: &ast::Pou, section: &ast::VarSection, d: &ast::VarDecl, ty: TypeId) {
+        self.check_edge(pou, section, d, ty);
+        self.check_address(pou, section, d);
+        self.check_instance(pou, section, ty, d.ty.span);
+        let output = matches!(section.kind, SectionKind::Input | SectionKind::Output);
+        for name in d.names.iter().filter(|n| output && (n.is("EN") || n.is("ENO")) && !self.in_library(n.span)) {
+            self.unsupported(name.span, "EN and ENO", "use another name and test it in the body");
+        }
+        if let Some(init) = d.init.as_ref().filter(|_| section.kind == SectionKind::InOut) {
+            self.error(Code::BadInitializer, init.span(), "a VAR_IN_OUT has no value of its own");
+        }
+    }
+
+    fn check_edge(&mut self, pou: &ast::Pou, section: &ast::VarSection, d: &ast::VarDecl, ty: TypeId) {
+        if d.edge.is_none() {
+            return;
+        }
+        if section.kind != SectionKind::Input || pou.kind == PouKind::Function {
+            self.error(Code::SectionNotAllowed, d.span, "an edge is detected at inputs of function blocks and programs");
+        } else if ty != self.error && self.elementary(ty) != Some(Elementary::Bool) {
+            let label = format!("{}, BOOL wanted", self.show(ty));
+            self.error(Code::TypeMismatch, d.ty.span, label);
+        }
+    }
+
+    fn check_address(&mut self, pou: &ast::Pou, section: &ast::VarSection, d: &ast::VarDecl) {
+        let Some(at) = &d.at else { return };
+        if pou.kind != PouKind::Program || section.kind != SectionKind::Var {
+            let help = "locate variables in VAR of a program or in VAR_GLOBAL";
+            self.report(Diag::new(Code::SectionNotAllowed, at.span, "an address").help(help));
+        }
+    }
+
+    /// Function blocks need memory that lasts.
+    fn check_instance(&mut self, pou: &ast::Pou, section: &ast::VarSection, ty: TypeId, span: Span) {
+        let lost = match section.kind {
+            SectionKind::Temp => true,
+            SectionKind::Var | SectionKind::Output => pou.kind == PouKind::Function,
+            _ => false,
+        };
+        if lost && self.holds_instance(ty) {
+            let label = format!("{} would forget its state after each call", self.show(ty));
+            let help = "declare the instance in a function block or program, or pass it as VAR_IN_OUT";
+            self.report(Diag::new(Code::SectionNotAllowed, span, label).help(help));
+        }
+        self.check_constant_instance(section.constant, ty, span);
+    }
+
+    /// A function block is never constant.
+    pub fn check_constant_instance(&mut self, constant: bool, ty: TypeId, span: Span) {
+        if constant && self.holds_instance(ty) {
+            let label = format!("{} changes when it is called", self.show(ty));
+            self.report(Diag::new(Code::SectionNotAllowed, span, label).message("a function block can't be CONSTANT"));
+        }
+    }
+
+    fn holds_instance(&self, ty: TypeId) -> bool {
+        match self.ty(ty) {
+            Type::Instance(_) => true,
+            Type::Array { element, .. } => self.holds_instance(*element),
+            Type::Struct(r) => r.fields.iter().any(|f| self.holds_instance(f.ty)),
+            _ => false,
+        }
+    }
+}

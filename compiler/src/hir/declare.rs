@@ -1,0 +1,76 @@
+//! Resolves all declarations: types, globals, then units with their variables. Each is resolved once, on first use.
+
+use super::builder::Builder;
+use super::constant;
+use super::model::*;
+use super::symbols::State;
+use crate::syntax::ast;
+use takt_base::index::Index;
+use takt_base::{Code, Diag};
+
+impl Builder<'_> {
+    /// Everything that is declared.
+    pub fn declare_all(&mut self) {
+        for index in 0..self.symbols.types.len() {
+            let span = self.symbols.types[index].decl.name.span;
+            if self.symbols.types[index].state == State::Pending {
+                self.declared_type(index, span);
+            }
+        }
+        for id in self.hir.globals.indices() {
+            self.ensure_global(id);
+        }
+        for id in self.hir.pous.indices() {
+            let span = self.symbols.pous[id].decl.name.span;
+            self.ensure_pou(id, span);
+        }
+    }
+
+    /// Resolves a global; false if it is being resolved, so that it depends on itself.
+    pub fn ensure_global(&mut self, id: GlobalId) -> bool {
+        let entry = &mut self.symbols.global_entries[id];
+        let decl = entry.decl;
+        match entry.state {
+            State::Done => return true,
+            State::Busy => return false,
+            State::Pending => entry.state = State::Busy,
+        }
+        let outer = std::mem::take(&mut self.scope);
+        self.deeper(decl.span, |b| b.resolve_global(id, decl));
+        self.scope = outer;
+        self.symbols.global_entries[id].state = State::Done;
+        true
+    }
+
+    fn resolve_global(&mut self, id: GlobalId, decl: &ast::VarDecl) {
+        let used = self.type_ref(&decl.ty);
+        if decl.edge.is_some() {
+            self.error(Code::SectionNotAllowed, decl.span, "an edge is detected at inputs of function blocks and programs");
+        }
+        self.hir.globals[id].ty = used.ty;
+        let init = decl.init.as_ref().map_or_else(|| used.default.clone(), |i| self.initial(i, &used));
+        let span = self.hir.globals[id].span;
+        self.check_constant_instance(self.hir.globals[id].constant, used.ty, span);
+        let kept = self.charge(constant::leaves(&init), decl.span);
+        self.hir.globals[id].init = if kept { init } else { Const::Zero };
+        if let Some(at) = &decl.at {
+            self.locate_global(id, at);
+            if at.area == ast::Area::Input {
+                self.hir.globals[id].init = Const::Zero;
+            }
+        }
+    }
+
+    /// RETAIN is accepted, but nothing is kept.
+    pub fn check_retain_kept(&mut self, section: &ast::VarSection) {
+        if section.retain == Some(true) {
+            let help = "the values start from their initial values at every start";
+            self.report(Diag::new(Code::RetainNotKept, section.span, "RETAIN").help(help));
+        }
+    }
+}
+
+/// Index of the next element.
+pub(super) fn next<I: Index, T>(vec: &takt_base::index::IndexVec<I, T>) -> I {
+    I::new(vec.len())
+}

@@ -1,0 +1,68 @@
+//! Short circuit (§5.4): AND and OR of BOOL skip the right side when it calls nobody and may trap, so that skipping can only remove
+//! faults.
+
+use crate::hir::builder::Builder;
+use crate::hir::constant;
+use crate::hir::convert::Operand;
+use crate::hir::model::*;
+use crate::syntax::ast::BinaryOp;
+use takt_image::Elementary;
+use takt_stdlib::catalog::Intrinsic;
+
+impl Builder<'_> {
+    /// Turns AND and OR of BOOL into their skipping forms where that is wanted.
+    pub(super) fn short_circuit(&self, mut o: Operand) -> Operand {
+        if self.elementary(o.expr.ty) == Some(Elementary::Bool)
+            && let ExprKind::Binary(op @ (BinaryOp::And | BinaryOp::Or), _, right) = &mut o.expr.kind
+            && !calls(right)
+            && may_trap(right)
+        {
+            *op = if *op == BinaryOp::And { BinaryOp::AndThen } else { BinaryOp::OrElse };
+        }
+        o
+    }
+}
+
+/// The parts of an expression that are expressions themselves.
+fn parts(e: &Expr) -> Vec<&Expr> {
+    match &e.kind {
+        ExprKind::Const(_) => vec![],
+        ExprKind::Load(place) => indices(place),
+        ExprKind::Neg(a) | ExprKind::Not(a) | ExprKind::Convert(_, a) => vec![a],
+        ExprKind::Binary(_, a, b) => vec![a, b],
+        ExprKind::Call { args, .. } => args.iter().filter_map(|a| if let Arg::Value(e) = a { Some(e) } else { None }).collect(),
+        ExprKind::Intrinsic(_, args) | ExprKind::Native { args, .. } => args.iter().collect(),
+    }
+}
+
+fn indices(place: &Place) -> Vec<&Expr> {
+    let step = |s| match s {
+        &Step::Index(ref list) => list.iter().collect(),
+        Step::Character(e) => vec![&**e],
+        Step::Field(_) | Step::Part { .. } => vec![],
+    };
+    place.path.iter().flat_map(step).collect()
+}
+
+/// True if a user's unit is called.
+fn calls(e: &Expr) -> bool {
+    matches!(e.kind, ExprKind::Call { .. }) || parts(e).into_iter().any(calls)
+}
+
+/// True if evaluating it may stop the program.
+fn may_trap(e: &Expr) -> bool {
+    let constant = |e: &Expr| matches!(e.kind, ExprKind::Const(_));
+    let divisor_unsafe = |e: &Expr| !matches!(&e.kind, ExprKind::Const(c) if !constant::is_zero(c));
+    let here = match &e.kind {
+        ExprKind::Load(place) => place.path.iter().any(|s| match s {
+            Step::Index(list) => !list.iter().all(constant),
+            Step::Character(_) => true,
+            Step::Field(_) | Step::Part { .. } => false,
+        }),
+        ExprKind::Convert(Conversion::Subrange, _) | ExprKind::Native { .. } | ExprKind::Call { .. } => true,
+        ExprKind::Binary(BinaryOp::Div | BinaryOp::Mod, _, b) => divisor_unsafe(b),
+        ExprKind::Intrinsic(Intrinsic::Div | Intrinsic::Mod, _) => true,
+        _ => false,
+    };
+    here || parts(e).into_iter().any(may_trap)
+}

@@ -1,0 +1,81 @@
+//! `**` and EXPT (§5.3): a real base; an integer base is computed in LREAL, or in REAL where that is wanted.
+
+use crate::hir::builder::Builder;
+use crate::hir::constant;
+use crate::hir::convert::{Flex, Operand, constant_expr};
+use crate::hir::model::*;
+use crate::syntax::ast::BinaryOp;
+use takt_base::Span;
+use takt_image::{Elementary, TypeId};
+use takt_stdlib::catalog::Intrinsic;
+
+impl Builder<'_> {
+    /// `a ** b`. Two untyped integers stay an exact integer as long as there is one.
+    pub fn power(&mut self, a: Operand, b: Operand, span: Span, want: Option<TypeId>) -> Operand {
+        if let (Flex::Int { .. }, Flex::Int { .. }) = (a.flex, b.flex)
+            && let (ExprKind::Const(x), ExprKind::Const(y)) = (&a.expr.kind, &b.expr.kind)
+            && let (Some(x), Some(y)) = (constant::int(x), constant::int(y))
+            && let Ok(value) = constant::exact(BinaryOp::Power, x, y)
+        {
+            return self.flex_int(value, false, span);
+        }
+        let Some(base_type) = self.power_base(&a, want) else {
+            return self.bad_operand("**", a.expr.ty, span, "the base is a real number");
+        };
+        let base = self.raise_base(a, base_type);
+        let Some(exponent) = self.exponent(b, base_type) else { return self.bad(span) };
+        if let (ExprKind::Const(x), ExprKind::Const(y)) = (&base.kind, &exponent.kind)
+            && let Some(value) = constant::real(x).zip(constant::int(y)).and_then(|(x, n)| constant::power(x, n))
+        {
+            let e = self.elementary(base_type).unwrap_or(Elementary::Lreal);
+            return Operand::fixed(constant_expr(Const::Real(constant::round(e, value)), base_type, span));
+        }
+        let kind = ExprKind::Intrinsic(Intrinsic::Expt, vec![base, exponent]);
+        Operand::fixed(Expr { kind, ty: base_type, span })
+    }
+
+    fn power_base(&mut self, a: &Operand, want: Option<TypeId>) -> Option<TypeId> {
+        let e = self.elementary(a.expr.ty)?;
+        if e.is_real() && a.flex == Flex::Fixed {
+            return Some(a.expr.ty);
+        }
+        if !(e.is_int() || e.is_real()) {
+            return None;
+        }
+        let literal = a.flex != Flex::Fixed;
+        let wanted = want.filter(|w| self.elementary(*w).is_some_and(|w| w.is_real() && (literal || e.widens_to(w))));
+        Some(wanted.unwrap_or_else(|| self.elem(Elementary::Lreal)))
+    }
+
+    fn raise_base(&mut self, a: Operand, to: TypeId) -> Expr {
+        if a.flex == Flex::Fixed && self.elementary(a.expr.ty).is_some_and(Elementary::is_int) {
+            return self.wrap(Conversion::IntToReal, a.expr, to);
+        }
+        self.fit(a, to)
+    }
+
+    /// An integer exponent as LINT, a real one in the type of the base.
+    pub(super) fn exponent(&mut self, b: Operand, base: TypeId) -> Option<Expr> {
+        let e = self.elementary(b.expr.ty);
+        let lint = self.elem(Elementary::Lint);
+        match (b.flex, e) {
+            (Flex::Int { .. }, _) => Some(self.fit(b, lint)),
+            (Flex::Real, _) => Some(self.fit(b, base)),
+            (Flex::Fixed, Some(e)) if e.is_int() => Some(self.to_lint(b.expr)),
+            (Flex::Fixed, Some(e)) if e.is_real() => {
+                let same = b.expr.ty == base;
+                Some(if same { b.expr } else { self.wrap(Conversion::Real, b.expr, base) })
+            }
+            _ => {
+                self.bad_operand("**", b.expr.ty, b.expr.span, "the exponent is a number");
+                None
+            }
+        }
+    }
+
+    /// An integer of any type as LINT.
+    pub fn to_lint(&mut self, e: Expr) -> Expr {
+        let lint = self.elem(Elementary::Lint);
+        if e.ty == lint { e } else { self.wrap(Conversion::Integer, e, lint) }
+    }
+}

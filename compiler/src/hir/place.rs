@@ -1,0 +1,334 @@
+//! Variables and what is reached from them: members, elements, bits, characters (§2.7, §2.8, §2.11), with the right to write them.
+
+use super::builder::Builder;
+use super::constant;
+use super::convert::{Operand, constant_expr};
+use super::model::*;
+use super::scope::{Local, ReadOnly};
+use super::symbols::Unit;
+use crate::syntax::ast;
+use takt_base::{Code, Diag, Span};
+use takt_image::types::{Dim, Section, Type};
+use takt_image::{Elementary, TypeId};
+
+/// What may be done to a place.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Access {
+    Write,
+    /// CONSTANT, declared there.
+    Constant(Span),
+    /// VAR_INPUT of the unit itself.
+    OwnInput(Span),
+    /// Output or variable of a function block, seen from outside.
+    Inside,
+    /// %I.
+    InputImage,
+}
+
+/// A place with its rights.
+#[derive(Clone, Debug)]
+pub(super) struct Target {
+    pub place: Place,
+    pub access: Access,
+}
+
+impl Builder<'_> {
+    /// The value of a place; constants at once.
+    pub fn read(&mut self, e: &ast::Expr) -> Operand {
+        let Some(target) = self.place(e) else { return self.bad(e.span) };
+        let (ty, span) = (target.place.ty, e.span);
+        if ty == self.error {
+            return self.bad(span);
+        }
+        if !matches!(self.ty(ty), Type::Array { .. } | Type::Struct(_) | Type::Instance(_))
+            && let Some(c) = self.constant_at(&target.place)
+        {
+            let c = if self.is_string(ty) { c } else { self.scalar_zero(c, ty) };
+            return Operand::fixed(constant_expr(c, ty, span));
+        }
+        Operand::fixed(Expr { kind: ExprKind::Load(target.place), ty, span })
+    }
+
+    /// `Zero` spelt out as the type's own zero.
+    fn scalar_zero(&self, c: Const, ty: TypeId) -> Const {
+        match (c, self.hir.types.storage(ty)) {
+            (Const::Zero, Some(e)) if e.is_real() => Const::Real(0.0),
+            (Const::Zero, Some(_)) => Const::Int(0),
+            (c, _) => c,
+        }
+    }
+
+    /// The value of a CONSTANT or a part of it.
+    pub fn constant_at(&self, place: &Place) -> Option<Const> {
+        let mut value = match place.base {
+            Base::Global(id) => Some(&self.hir.globals[id]).filter(|g| g.constant).map(|g| &g.init)?,
+            Base::Var(id) => {
+                let constant = self.scope.read_only.get(&id) == Some(&ReadOnly::Constant);
+                constant.then(|| self.scope.pou.map(|p| &self.hir.pous[p].vars[id].init)).flatten()?
+            }
+            Base::Image(_) => return None,
+        };
+        let mut ty = self.base_type(place.base)?;
+        for step in &place.path {
+            let (index, next) = self.step_into(ty, step)?;
+            ty = next;
+            value = match value {
+                Const::Aggregate(parts) => parts.get(index)?,
+                Const::Zero => &Const::Zero,
+                _ => return None,
+            };
+        }
+        Some(value.clone())
+    }
+
+    fn base_type(&self, base: Base) -> Option<TypeId> {
+        match base {
+            Base::Global(id) => Some(self.hir.globals[id].ty),
+            Base::Var(id) => Some(self.hir.pous[self.scope.pou?].vars[id].ty),
+            Base::Image(_) => None,
+        }
+    }
+
+    /// Position of the part in its whole, and its type.
+    fn step_into(&self, ty: TypeId, step: &Step) -> Option<(usize, TypeId)> {
+        match (step, self.ty(ty)) {
+            (Step::Field(i), Type::Struct(r) | Type::Instance(r)) => Some((*i as usize, r.fields.get(*i as usize)?.ty)),
+            (Step::Index(list), Type::Array { element, dims }) => {
+                let mut flat = 0usize;
+                for (e, dim) in list.iter().zip(dims) {
+                    let ExprKind::Const(c) = &e.kind else { return None };
+                    let offset = constant::int(c)?.checked_sub(dim.low.into())?;
+                    flat = flat.checked_mul(dim.len() as usize)?.checked_add(usize::try_from(offset).ok()?)?;
+                }
+                Some((flat, *element))
+            }
+            _ => None,
+        }
+    }
+
+    /// The place that stands there; `None` if it is none and that has been reported.
+    pub fn place(&mut self, e: &ast::Expr) -> Option<Target> {
+        self.deeper(e.span, |b| b.place_kind(e)).flatten()
+    }
+
+    fn place_kind(&mut self, e: &ast::Expr) -> Option<Target> {
+        match &e.kind {
+            ast::ExprKind::Name(n) => self.variable(n),
+            ast::ExprKind::Direct(a) => self.direct(a),
+            ast::ExprKind::Member(base, name) => {
+                let base = self.place(base)?;
+                self.member(base, name, e.span)
+            }
+            ast::ExprKind::Index(..) => self.indexed(e),
+            ast::ExprKind::Part { base, size, index } => {
+                let base = self.place(base)?;
+                self.part(base, *size, *index, e.span)
+            }
+            ast::ExprKind::Error => None,
+            _ => {
+                let help = "assign the value to a variable first";
+                self.report(Diag::new(Code::NotAVariable, e.span, "a value without a place").help(help));
+                None
+            }
+        }
+    }
+
+    fn variable(&mut self, n: &ast::Name) -> Option<Target> {
+        let id = match self.local(&n.key()) {
+            Some(Local::Var(id)) => return Some(self.own_variable(id, n.span)),
+            Some(Local::External(id)) => id,
+            None => match self.global(n) {
+                Some(id) => id,
+                None => {
+                    self.no_variable(n);
+                    return None;
+                }
+            },
+        };
+        if !self.ensure_global(id) {
+            let label = format!("the value of `{}` depends on itself", n.text);
+            self.error(Code::NotConstant, n.span, label);
+            return None;
+        }
+        let global = &self.hir.globals[id];
+        let access = match () {
+            () if global.constant => Access::Constant(global.span),
+            () if self.image.area_of_global(id) == Some(ast::Area::Input) => Access::InputImage,
+            () => Access::Write,
+        };
+        Some(Target { place: Place { base: Base::Global(id), path: Vec::new(), ty: global.ty, span: n.span }, access })
+    }
+
+    fn own_variable(&mut self, id: VarId, span: Span) -> Target {
+        let pou = self.scope.pou.unwrap_or(PouId(0));
+        let var = &self.hir.pous[pou].vars[id];
+        let access = match self.scope.read_only.get(&id) {
+            Some(ReadOnly::Constant) => Access::Constant(var.span),
+            Some(ReadOnly::Input) => Access::OwnInput(var.span),
+            None if self.image.area_of_var(pou, id) == Some(ast::Area::Input) => Access::InputImage,
+            None => Access::Write,
+        };
+        Target { place: Place { base: Base::Var(id), path: Vec::new(), ty: var.ty, span }, access }
+    }
+
+    fn no_variable(&mut self, n: &ast::Name) {
+        let what = match self.symbols.units.get(&n.key()) {
+            Some((Unit::Type(_), _)) => Some("a type"),
+            Some((Unit::Pou(id), _)) => Some(match self.hir.pous[*id].kind {
+                PouKind::Function => "a function: call it with ( )",
+                PouKind::FunctionBlock => "a function block: declare an instance of it",
+                PouKind::Program => "a program",
+            }),
+            None if takt_stdlib::lookup(&n.text).is_some() => Some("a standard function: call it with ( )"),
+            None => None,
+        };
+        match what {
+            Some(what) => self.error(Code::NotAVariable, n.span, what),
+            None => {
+                let known = self.value_names();
+                self.unknown(Code::UnknownName, n, known);
+            }
+        }
+    }
+
+    fn member(&mut self, base: Target, name: &ast::Name, span: Span) -> Option<Target> {
+        if base.place.ty == self.error {
+            return None;
+        }
+        let (record, instance) = match self.ty(base.place.ty) {
+            Type::Struct(r) => (r, false),
+            Type::Instance(r) => (r, true),
+            _ => {
+                let label = format!("{} has no members", self.show(base.place.ty));
+                self.error(Code::UnknownMember, name.span, label);
+                return None;
+            }
+        };
+        let index = record.fields.iter().position(|f| name.is(&f.name) && f.section != Section::Hidden);
+        let Some(index) = index else {
+            let known = record.fields.iter().filter(|f| f.section != Section::Hidden).map(|f| f.name.clone()).collect();
+            self.unknown(Code::UnknownMember, name, known);
+            return None;
+        };
+        let (ty, section) = (record.fields[index].ty, record.fields[index].section);
+        if section == Section::InOut {
+            let help = "use the variable that is bound to it in the call";
+            self.report(Diag::new(Code::UnknownMember, name.span, "a VAR_IN_OUT is not visible from outside").help(help));
+            return None;
+        }
+        let access = match (base.access, instance && section != Section::Input) {
+            (Access::Write, true) => Access::Inside,
+            (access, _) => access,
+        };
+        let mut place = base.place;
+        place.path.push(Step::Field(index as u32));
+        Some(Target { place: Place { ty, span, ..place }, access })
+    }
+
+    /// `a[i, j]`, `a[i][j]`: all indices in a row are spread over the dimensions of the types.
+    fn indexed(&mut self, e: &ast::Expr) -> Option<Target> {
+        let mut lists = Vec::new();
+        let mut root = e;
+        while let ast::ExprKind::Index(base, list) = &root.kind {
+            lists.push(list);
+            root = base;
+        }
+        let mut target = self.place(root)?;
+        let indices: Vec<&ast::Expr> = lists.into_iter().rev().flatten().collect();
+        let mut rest = indices.as_slice();
+        while !rest.is_empty() {
+            if target.place.ty == self.error {
+                return None;
+            }
+            let (step, ty, used) = match self.ty(target.place.ty) {
+                Type::Array { element, dims } => {
+                    let (element, dims) = (*element, dims.clone());
+                    (self.element(&dims, rest, e.span)?, element, dims.len())
+                }
+                Type::String { capacity } => (self.character(*capacity, rest[0])?, self.elem(Elementary::Char), 1),
+                Type::WString { capacity } => (self.character(*capacity, rest[0])?, self.elem(Elementary::Wchar), 1),
+                _ => {
+                    let label = self.show(target.place.ty);
+                    self.error(Code::NotAnArray, root.span, label);
+                    return None;
+                }
+            };
+            target.place.path.push(step);
+            target.place.ty = ty;
+            rest = &rest[used..];
+        }
+        target.place.span = e.span;
+        Some(target)
+    }
+
+    fn element(&mut self, dims: &[Dim], indices: &[&ast::Expr], span: Span) -> Option<Step> {
+        if indices.len() < dims.len() {
+            let label = format!("{} of {} indices", indices.len(), dims.len());
+            self.report(Diag::new(Code::WrongArgumentCount, span, label).message("the array has more dimensions"));
+            return None;
+        }
+        let list: Vec<Option<Expr>> =
+            indices.iter().zip(dims).map(|(e, d)| self.index(e, d.low.into(), d.high.into())).collect();
+        list.into_iter().collect::<Option<Vec<_>>>().map(Step::Index)
+    }
+
+    fn character(&mut self, capacity: u32, e: &ast::Expr) -> Option<Step> {
+        Some(Step::Character(Box::new(self.index(e, 1, capacity.into())?)))
+    }
+
+    /// A subscript as DINT or LINT.
+    fn index(&mut self, e: &ast::Expr, low: i128, high: i128) -> Option<Expr> {
+        let o = self.operand(e, None);
+        let o = self.decay(o);
+        if self.is_bad(&o) {
+            return None;
+        }
+        let o = self.settle(o);
+        let Some(kind) = self.elementary(o.ty).filter(|k| k.is_int()) else {
+            let label = format!("{}, an integer wanted", self.show(o.ty));
+            self.report(Diag::new(Code::TypeMismatch, e.span, label).help("an index is an integer"));
+            return None;
+        };
+        let wide = kind.widens_to(Elementary::Dint);
+        let to = self.elem(if wide { Elementary::Dint } else { Elementary::Lint });
+        if let ExprKind::Const(c) = &o.kind
+            && let Some(value) = constant::int(c)
+            && !(low..=high).contains(&value)
+        {
+            self.report(Diag::new(Code::IndexOutOfRange, e.span, value.to_string()).help(format!("the bounds are {low}..{high}")));
+            return None;
+        }
+        Some(if o.ty == to { o } else { self.wrap(Conversion::Integer, o, to) })
+    }
+
+    /// `w.3`, `d.%B1`.
+    fn part(&mut self, base: Target, size: ast::AddressSize, index: u32, span: Span) -> Option<Target> {
+        if base.place.ty == self.error {
+            return None;
+        }
+        let whole = self.hir.types.storage(base.place.ty).filter(|e| e.is_bit() && *e != Elementary::Bool);
+        let Some(whole) = whole.filter(|_| !ends_in_part(&base.place)) else {
+            let help = "convert an integer to a bit string first, for example with INT_TO_WORD";
+            let label = format!("{} has no bits to name", self.show(base.place.ty));
+            self.report(Diag::new(Code::BadOperand, span, label).help(help));
+            return None;
+        };
+        let part = super::image::size_type(size);
+        let (width, bits) = (part.bits(), whole.bits());
+        let bit = u64::from(index) * u64::from(width);
+        if bit + u64::from(width) > u64::from(bits) {
+            let help = format!("{} has the parts 0..{}", whole.name(), bits / width - u32::from(bits >= width));
+            self.report(Diag::new(Code::IndexOutOfRange, span, index.to_string()).help(help));
+            return None;
+        }
+        let ty = self.elem(part);
+        let mut place = base.place;
+        place.path.push(Step::Part { bit: bit as u32, width });
+        Some(Target { place: Place { ty, span, ..place }, access: base.access })
+    }
+}
+
+/// True if the place is some bits of a variable.
+pub(super) fn ends_in_part(place: &Place) -> bool {
+    matches!(place.path.last(), Some(Step::Part { .. }))
+}

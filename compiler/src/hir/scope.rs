@@ -1,0 +1,132 @@
+//! Names inside a unit, and the search for a name from the inside out (§3.10).
+
+use super::builder::Builder;
+use super::model::*;
+use super::symbols::Unit;
+use crate::syntax::ast;
+use std::collections::{HashMap, HashSet};
+use takt_base::{Code, Diag, Span};
+use takt_image::TypeId;
+
+/// The scope of the unit that is being worked on; without a unit the global scope.
+#[derive(Default, Clone)]
+pub(super) struct Scope {
+    pub pou: Option<PouId>,
+    pub names: HashMap<String, (Local, Span)>,
+    /// Anonymous enumerations declared here.
+    pub enums: Vec<TypeId>,
+    /// Earlier values of the enumeration that is being declared.
+    pub values: Vec<(String, TypeId, i128)>,
+    /// Variables that must not be written, with the reason.
+    pub read_only: HashMap<VarId, ReadOnly>,
+    /// Loops around the current statement.
+    pub loops: u32,
+    /// Control variables of the FOR loops around the current statement.
+    pub controls: Vec<VarId>,
+    /// The result variable was written.
+    pub result_written: bool,
+    /// Globals whose direct use has been mentioned.
+    pub mentioned: HashSet<GlobalId>,
+}
+
+/// Why a variable can't be written.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum ReadOnly {
+    /// CONSTANT: its initial value is its value.
+    Constant,
+    /// VAR_INPUT of the unit itself.
+    Input,
+}
+
+/// What a name of a unit stands for.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Local {
+    Var(VarId),
+    External(GlobalId),
+}
+
+impl Builder<'_> {
+    /// Enters a name into the unit's scope; false and a report if it is taken.
+    pub fn declare_local(&mut self, name: &ast::Name, local: Local) -> bool {
+        if let Some(&(_, first)) = self.scope.names.get(&name.key()) {
+            self.report(Diag::new(Code::DuplicateName, name.span, "declared again").also(first, "first declared"));
+            return false;
+        }
+        self.scope.names.insert(name.key(), (local, name.span));
+        true
+    }
+
+    /// The variable of this name in the unit.
+    pub fn local(&self, key: &str) -> Option<Local> {
+        self.scope.names.get(key).map(|l| l.0)
+    }
+
+    /// The global of this name; its direct use without VAR_EXTERNAL is mentioned once a unit.
+    pub fn global(&mut self, name: &ast::Name) -> Option<GlobalId> {
+        let id = *self.symbols.globals.get(&name.key())?;
+        if self.scope.pou.is_some() && !self.symbols.global_entries[id].library && self.scope.mentioned.insert(id) {
+            let span = self.hir.globals[id].span;
+            self.report(
+                Diag::new(Code::GlobalWithoutExternal, name.span, "a global variable")
+                    .also(span, "declared")
+                    .help("declare it in a VAR_EXTERNAL section of this unit"),
+            );
+        }
+        Some(id)
+    }
+
+    /// The unit of this name.
+    pub fn pou(&self, name: &ast::Name) -> Option<PouId> {
+        match self.symbols.units.get(&name.key()) {
+            Some((Unit::Pou(id), _)) => Some(*id),
+            _ => None,
+        }
+    }
+
+    /// Reports an unknown name with the nearest known one.
+    pub fn unknown(&mut self, code: Code, name: &ast::Name, known: Vec<String>) {
+        let mut diag = Diag::new(code, name.span, "not found");
+        if let Some(near) = nearest(&name.key(), &known) {
+            diag = diag.help(format!("did you mean `{near}`?"));
+        }
+        self.report(diag);
+    }
+
+    /// All names that may stand for a value here.
+    pub fn value_names(&self) -> Vec<String> {
+        let vars = self.scope.pou.map(|p| self.hir.pous[p].vars.iter().map(|v| v.name.clone()));
+        let globals = self.hir.globals.iter().map(|g| g.name.clone());
+        let enums = self.symbols.types.iter().filter_map(|t| if let ast::TypeBody::Enum(e) = &t.decl.body { Some(e) } else { None });
+        let values = enums.flat_map(|e| &e.values).map(|(n, _)| n.text.clone());
+        vars.into_iter().flatten().chain(globals).chain(values).collect()
+    }
+
+    /// All names of types and units.
+    pub fn unit_names(&self) -> Vec<String> {
+        let types = self.symbols.types.iter().map(|t| t.decl.name.text.clone());
+        types.chain(self.hir.pous.iter().map(|p| p.name.clone())).collect()
+    }
+}
+
+/// The known name that differs least, if it differs by at most a third of its letters and not by more than two.
+pub(super) fn nearest<'a>(name: &str, known: &'a [String]) -> Option<&'a str> {
+    let room = (name.len() / 3).clamp(1, 2);
+    let distance = |k: &String| edit_distance(name, &k.to_ascii_uppercase(), room).map(|d| (d, k));
+    known.iter().filter_map(distance).min_by_key(|(d, k)| (*d, k.as_str())).map(|(_, k)| k.as_str())
+}
+
+/// Insertions, deletions and replacements between two names; `None` if more than `most`.
+fn edit_distance(a: &str, b: &str, most: usize) -> Option<usize> {
+    if a.len().abs_diff(b.len()) > most || a.len() > 64 || b.len() > 66 {
+        return None;
+    }
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, x) in a.bytes().enumerate() {
+        let mut diagonal = std::mem::replace(&mut row[0], i + 1);
+        for (j, y) in b.bytes().enumerate() {
+            let cost = (diagonal + usize::from(x != y)).min(row[j] + 1).min(row[j + 1] + 1);
+            diagonal = std::mem::replace(&mut row[j + 1], cost);
+        }
+    }
+    Some(row[b.len()]).filter(|&d| d <= most && d > 0)
+}

@@ -1,0 +1,234 @@
+//! All names of the project before anything is resolved: types and units, globals, enumerators. File order does not matter (§4).
+
+use super::builder::Builder;
+use super::model::{self, *};
+use super::scope::Scope;
+use super::types::TypeUse;
+use crate::syntax::ast;
+use std::collections::{HashMap, HashSet};
+use takt_base::index::IndexVec;
+use takt_base::{Code, Diag, Severity, SourceId, Span};
+
+/// How far a declaration has got.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum State {
+    Pending,
+    Busy,
+    Done,
+}
+
+/// A declared type.
+pub(super) struct TypeEntry<'a> {
+    pub decl: &'a ast::TypeDecl,
+    pub state: State,
+    pub result: Option<TypeUse>,
+}
+
+/// A declared unit.
+pub(super) struct PouEntry<'a> {
+    pub decl: &'a ast::Pou,
+    pub library: bool,
+    pub state: State,
+    /// Names of the unit, between declaration and body.
+    pub scope: Scope,
+}
+
+/// A declared global variable.
+pub(super) struct GlobalEntry<'a> {
+    pub decl: &'a ast::VarDecl,
+    pub library: bool,
+    pub state: State,
+}
+
+/// What a name of the type-and-unit scope stands for.
+#[derive(Clone, Copy)]
+pub(super) enum Unit {
+    Type(usize),
+    Pou(PouId),
+}
+
+/// The tables.
+#[derive(Default)]
+pub(super) struct Symbols<'a> {
+    pub units: HashMap<String, (Unit, Span)>,
+    pub types: Vec<TypeEntry<'a>>,
+    pub pous: IndexVec<PouId, PouEntry<'a>>,
+    pub globals: HashMap<String, GlobalId>,
+    pub global_entries: IndexVec<GlobalId, GlobalEntry<'a>>,
+    /// Enumerator name to the types that declare it.
+    pub enumerators: HashMap<String, Vec<usize>>,
+    pub configurations: Vec<&'a ast::Configuration>,
+    /// A place for messages that belong to no declaration.
+    pub somewhere: Option<Span>,
+}
+
+impl<'a> Builder<'a> {
+    /// Collects all declarations. A user's declaration replaces a library's of the same name.
+    pub fn collect(&mut self, files: &'a [(SourceId, ast::File)]) {
+        let mine = self.user_names(files);
+        for (source, file) in files {
+            let library = self.sources.get(*source).library;
+            if !library || self.symbols.somewhere.is_none() {
+                self.symbols.somewhere = Some(Span::new(*source, 0, 0));
+            }
+            for item in &file.items {
+                self.collect_item(item, *source, library, &mine);
+            }
+        }
+        self.collect_configurations();
+    }
+
+    fn user_names(&self, files: &[(SourceId, ast::File)]) -> HashSet<String> {
+        let user = files.iter().filter(|(id, _)| !self.sources.get(*id).library);
+        user.flat_map(|(_, f)| &f.items).flat_map(item_names).collect()
+    }
+
+    fn collect_item(&mut self, item: &'a ast::Item, source: SourceId, library: bool, mine: &HashSet<String>) {
+        let replaced = |name: &ast::Name| library && mine.contains(&name.key());
+        match item {
+            ast::Item::Types(decls) => {
+                for decl in decls.iter().filter(|d| !replaced(&d.name)) {
+                    self.collect_type(decl);
+                }
+            }
+            ast::Item::Pou(decl) if !replaced(&decl.name) => self.collect_pou(decl, source, library),
+            ast::Item::Pou(_) => {}
+            ast::Item::Globals(section) => self.collect_globals(section, library, &|key| library && mine.contains(key)),
+            ast::Item::Configuration(c) => self.symbols.configurations.push(c),
+        }
+    }
+
+    fn collect_type(&mut self, decl: &'a ast::TypeDecl) {
+        let index = self.symbols.types.len();
+        self.symbols.types.push(TypeEntry { decl, state: State::Pending, result: None });
+        if self.unit_name(&decl.name, Unit::Type(index))
+            && let ast::TypeBody::Enum(e) = &decl.body
+        {
+            for (value, _) in &e.values {
+                self.symbols.enumerators.entry(value.key()).or_default().push(index);
+            }
+        }
+    }
+
+    fn collect_pou(&mut self, decl: &'a ast::Pou, source: SourceId, library: bool) {
+        let kind = match decl.kind {
+            ast::PouKind::Function => model::PouKind::Function,
+            ast::PouKind::FunctionBlock => model::PouKind::FunctionBlock,
+            ast::PouKind::Program => model::PouKind::Program,
+        };
+        let id = self.symbols.pous.push(PouEntry { decl, library, state: State::Pending, scope: Scope::default() });
+        self.hir.pous.push(Pou {
+            name: decl.name.text.clone(),
+            kind,
+            source,
+            instance: None,
+            vars: IndexVec::new(),
+            params: Vec::new(),
+            result: None,
+            external: decl.external,
+            body: Vec::new(),
+            end: end_keyword(decl),
+            reachable: false,
+        });
+        if self.unit_name(&decl.name, Unit::Pou(id)) && kind == model::PouKind::Function {
+            self.warn_replaced(&decl.name);
+        }
+    }
+
+    fn warn_replaced(&mut self, name: &ast::Name) {
+        if takt_stdlib::lookup(&name.text).is_some() {
+            self.report(
+                Diag::new(Code::DuplicateName, name.span, "a standard function has this name")
+                    .severity(Severity::Warning)
+                    .message("this function replaces a standard function")
+                    .help("rename it if the standard function is wanted"),
+            );
+        }
+    }
+
+    /// Enters a type or unit; false if the name is taken.
+    fn unit_name(&mut self, name: &ast::Name, unit: Unit) -> bool {
+        let first = self.symbols.units.entry(name.key()).or_insert((unit, name.span)).1;
+        if first != name.span {
+            self.report(Diag::new(Code::DuplicateName, name.span, "declared again").also(first, "first declared"));
+        }
+        first == name.span
+    }
+
+    /// Enters the variables of a VAR_GLOBAL section.
+    pub fn collect_globals(&mut self, section: &'a ast::VarSection, library: bool, replaced: &dyn Fn(&str) -> bool) {
+        for decl in &section.decls {
+            let anonymous = decl.names.is_empty().then(|| decl.at.as_ref().map(super::image::name_of)).flatten();
+            for name in decl.names.iter().chain(anonymous.as_ref()).filter(|n| !replaced(&n.key())) {
+                self.collect_global(section, decl, name, library);
+            }
+        }
+        self.check_retain_kept(section);
+    }
+
+    fn collect_global(&mut self, section: &ast::VarSection, decl: &'a ast::VarDecl, name: &ast::Name, library: bool) {
+        let id = self.hir.globals.push(Global {
+            name: name.text.clone(),
+            ty: self.error,
+            place: None,
+            init: Const::Zero,
+            constant: section.constant,
+            retain: section.retain == Some(true),
+            span: name.span,
+        });
+        self.symbols.global_entries.push(GlobalEntry { decl, library, state: State::Pending });
+        let first = *self.symbols.globals.entry(name.key()).or_insert(id);
+        if first != id {
+            let span = self.hir.globals[first].span;
+            self.report(Diag::new(Code::DuplicateName, name.span, "declared again").also(span, "first declared"));
+        }
+    }
+
+    /// Globals of configurations and resources; those of a resource hide those of the configuration (§3.5).
+    fn collect_configurations(&mut self) {
+        for c in self.symbols.configurations.clone() {
+            for section in &c.globals {
+                self.collect_globals(section, false, &|_| false);
+            }
+            for section in c.resources.iter().flat_map(|r| &r.globals) {
+                self.hide_globals(section, c);
+                self.collect_globals(section, false, &|_| false);
+            }
+        }
+    }
+
+    fn hide_globals(&mut self, section: &ast::VarSection, c: &ast::Configuration) {
+        let outer = |key: &str| {
+            let decls = c.globals.iter().flat_map(|s| &s.decls);
+            decls.flat_map(|d| &d.names).any(|n| n.key() == key)
+        };
+        for name in section.decls.iter().flat_map(|d| &d.names) {
+            if outer(&name.key()) {
+                self.symbols.globals.remove(&name.key());
+            }
+        }
+    }
+}
+
+fn item_names(item: &ast::Item) -> Vec<String> {
+    match item {
+        ast::Item::Types(decls) => decls.iter().map(|d| d.name.key()).collect(),
+        ast::Item::Pou(p) => vec![p.name.key()],
+        ast::Item::Globals(s) => s.decls.iter().flat_map(|d| &d.names).map(ast::Name::key).collect(),
+        ast::Item::Configuration(c) => {
+            let sections = c.globals.iter().chain(c.resources.iter().flat_map(|r| &r.globals));
+            sections.flat_map(|s| &s.decls).flat_map(|d| &d.names).map(ast::Name::key).collect()
+        }
+    }
+}
+
+/// The END_ keyword of a unit.
+fn end_keyword(decl: &ast::Pou) -> Span {
+    let length = match decl.kind {
+        ast::PouKind::Function => "END_FUNCTION",
+        ast::PouKind::FunctionBlock => "END_FUNCTION_BLOCK",
+        ast::PouKind::Program => "END_PROGRAM",
+    }
+    .len() as u32;
+    Span { start: decl.span.end.saturating_sub(length).max(decl.span.start), ..decl.span }
+}

@@ -1,0 +1,200 @@
+//! The variables of a unit: sections, storage, signature, and the layout of its instances (§3.1, §3.2, §4).
+
+use super::builder::Builder;
+use super::constant;
+use super::declare::next;
+use super::model::*;
+use super::scope::{Local, ReadOnly};
+use super::symbols::State;
+use super::types::TypeUse;
+use super::types::structure::Member;
+use crate::syntax::ast::{self, SectionKind};
+use takt_base::{Code, Diag, Span};
+use takt_image::types::{Section, Type};
+use takt_image::{Elementary, TypeId};
+
+impl Builder<'_> {
+    /// Resolves the variables of a unit; false if that is going on, so that it would contain itself.
+    pub fn ensure_pou(&mut self, id: PouId, at: Span) -> bool {
+        let entry = &mut self.symbols.pous[id];
+        let decl = entry.decl;
+        match entry.state {
+            State::Done => return true,
+            State::Busy => return false,
+            State::Pending => entry.state = State::Busy,
+        }
+        let outer = std::mem::take(&mut self.scope);
+        self.scope.pou = Some(id);
+        self.deeper(at, |b| b.resolve_pou(id, decl));
+        let own = std::mem::replace(&mut self.scope, outer);
+        let entry = &mut self.symbols.pous[id];
+        entry.scope = own;
+        entry.state = State::Done;
+        true
+    }
+
+    fn resolve_pou(&mut self, id: PouId, decl: &ast::Pou) {
+        if decl.kind == ast::PouKind::Function {
+            self.declare_result(id, decl);
+        }
+        for section in &decl.sections {
+            self.check_section(decl, section);
+            for d in &section.decls {
+                self.declare_vars(id, decl, section, d);
+            }
+        }
+        if decl.kind != ast::PouKind::Function {
+            self.lay_out(id, decl);
+        }
+    }
+
+    fn declare_result(&mut self, id: PouId, decl: &ast::Pou) {
+        let Some(result) = &decl.result else { return };
+        let used = self.type_ref(result);
+        if matches!(self.ty(used.ty), Type::Instance(_)) {
+            let label = format!("{} has memory", self.show(used.ty));
+            self.report(Diag::new(Code::SectionNotAllowed, result.span, label).message("a function can't return a function block"));
+        }
+        let var = self.push_var(id, &decl.name, used.ty, Role::Result, Storage::Local, used.default);
+        self.hir.pous[id].result = Some(var);
+        self.declare_local(&decl.name, Local::Var(var));
+    }
+
+    fn push_var(&mut self, id: PouId, name: &ast::Name, ty: TypeId, role: Role, storage: Storage, init: Const) -> VarId {
+        let init = if self.charge(constant::leaves(&init) - 1, name.span) { init } else { Const::Zero };
+        let var = Var { name: name.text.clone(), ty, role, storage, init, edge: None, span: name.span };
+        self.hir.pous[id].vars.push(var)
+    }
+
+    fn declare_vars(&mut self, id: PouId, pou: &ast::Pou, section: &ast::VarSection, d: &ast::VarDecl) {
+        if section.kind == SectionKind::External {
+            d.names.iter().for_each(|name| self.declare_external(section, d, name));
+            return;
+        }
+        if section.kind == SectionKind::Global {
+            return;
+        }
+        let used = self.type_ref(&d.ty);
+        self.check_decl(pou, section, d, used.ty);
+        let init = d.init.as_ref().map_or_else(|| used.default.clone(), |i| self.initial(i, &used));
+        let used = TypeUse { default: init, ..used };
+        let anonymous = d.names.is_empty().then(|| d.at.as_ref().map(super::image::name_of)).flatten();
+        for name in d.names.iter().chain(anonymous.as_ref()) {
+            self.declare_var(id, pou, section, d, name, &used);
+        }
+    }
+
+    fn declare_var(&mut self, id: PouId, pou: &ast::Pou, section: &ast::VarSection, d: &ast::VarDecl, name: &ast::Name, used: &TypeUse) {
+        let role = match section.kind {
+            SectionKind::Input => Role::Input,
+            SectionKind::Output => Role::Output,
+            SectionKind::InOut => Role::InOut,
+            SectionKind::Temp => Role::Temp,
+            _ => Role::Local,
+        };
+        let var = next(&self.hir.pous[id].vars);
+        if !self.declare_local(name, Local::Var(var)) {
+            return;
+        }
+        let init = if role == Role::InOut { Const::Zero } else { used.default.clone() };
+        self.push_var(id, name, used.ty, role, Storage::Local, init);
+        if matches!(role, Role::Input | Role::Output | Role::InOut) {
+            self.hir.pous[id].params.push(var);
+        }
+        let constant = section.constant && role != Role::Input;
+        if constant || role == Role::Input {
+            self.scope.read_only.insert(var, if constant { ReadOnly::Constant } else { ReadOnly::Input });
+        }
+        if let Some(edge) = d.edge {
+            self.hir.pous[id].vars[var].edge = Some((edge, var));
+        }
+        if let Some(at) = d.at.as_ref().filter(|_| pou.kind == ast::PouKind::Program && section.kind == SectionKind::Var) {
+            self.locate_var(id, var, at);
+            if at.area == ast::Area::Input {
+                self.hir.pous[id].vars[var].init = Const::Zero;
+            }
+        }
+    }
+
+    /// VAR_EXTERNAL: a global of the same name and type, CONSTANT if that is (§3.5).
+    fn declare_external(&mut self, section: &ast::VarSection, d: &ast::VarDecl, name: &ast::Name) {
+        let used = self.type_ref(&d.ty);
+        let Some(&id) = self.symbols.globals.get(&name.key()) else {
+            let known: Vec<String> = self.hir.globals.iter().map(|g| g.name.clone()).collect();
+            self.unknown(Code::ExternalMismatch, name, known);
+            self.declare_unmatched(name, used.ty);
+            return;
+        };
+        self.ensure_global(id);
+        self.declare_local(name, Local::External(id));
+        let global = &self.hir.globals[id];
+        let (ty, constant, span) = (global.ty, global.constant, global.span);
+        let label = match () {
+            () if ty == self.error || used.ty == self.error => return,
+            () if ty != used.ty => format!("{}, the global is {}", self.show(used.ty), self.show(ty)),
+            () if constant && !section.constant => "the global is CONSTANT, this is not".to_owned(),
+            () if d.init.is_some() => "has an initial value".to_owned(),
+            () => return,
+        };
+        let help = "repeat the declaration of the global exactly, without its initial value";
+        self.report(Diag::new(Code::ExternalMismatch, name.span, label).also(span, "the global").help(help));
+    }
+
+    /// A variable that stands for an external without a global, so that its uses are not reported again.
+    fn declare_unmatched(&mut self, name: &ast::Name, ty: TypeId) {
+        if let Some(id) = self.scope.pou {
+            let var = next(&self.hir.pous[id].vars);
+            if self.declare_local(name, Local::Var(var)) {
+                self.push_var(id, name, ty, Role::Temp, Storage::Local, Const::Zero);
+            }
+        }
+    }
+
+    /// The instance: inputs, outputs, in-outs, variables, edge memory (§3.11).
+    fn lay_out(&mut self, id: PouId, decl: &ast::Pou) {
+        self.add_edge_memory(id);
+        let mut order: Vec<(Section, VarId)> = Vec::new();
+        for (section, role) in [
+            (Section::Input, Role::Input),
+            (Section::Output, Role::Output),
+            (Section::InOut, Role::InOut),
+            (Section::Var, Role::Local),
+            (Section::Hidden, Role::Hidden),
+        ] {
+            let vars = self.hir.pous[id].vars.enumerate().filter(|(v, var)| var.role == role && self.image.area_of_var(id, *v).is_none());
+            order.extend(vars.map(|(v, _)| (section, v)));
+        }
+        let retained = retained(decl);
+        let mut members = Vec::new();
+        for (i, &(section, v)) in order.iter().enumerate() {
+            let var = &mut self.hir.pous[id].vars[v];
+            var.storage = Storage::Field(i as u32);
+            let (name, init, retain) = (var.name.clone(), var.init.clone(), retained.contains(&var.name));
+            let target = var.ty;
+            let ty = if section == Section::InOut { self.hir.types.intern(Type::Reference { target }) } else { target };
+            members.push(Member { name, ty, section, retain, init });
+        }
+        let Some((record, default)) = self.record(decl.name.text.clone(), members, decl.name.span) else { return };
+        let ty = self.hir.types.add(Type::Instance(record));
+        self.defaults.insert(ty, default);
+        self.hir.pous[id].instance = Some(ty);
+    }
+
+    /// The hidden variable of each edge input holds the previous value of the actual input (§3.3).
+    fn add_edge_memory(&mut self, id: PouId) {
+        let bool = self.elem(Elementary::Bool);
+        for v in self.hir.pous[id].vars.indices() {
+            let var = &self.hir.pous[id].vars[v];
+            let Some((edge, _)) = var.edge else { continue };
+            let name = ast::Name { text: format!("{}.edge", var.name), span: var.span };
+            let memory = self.push_var(id, &name, bool, Role::Hidden, Storage::Local, Const::Zero);
+            self.hir.pous[id].vars[v].edge = Some((edge, memory));
+        }
+    }
+}
+
+/// Names of the variables declared RETAIN.
+fn retained(decl: &ast::Pou) -> Vec<String> {
+    let sections = decl.sections.iter().filter(|s| s.retain == Some(true));
+    sections.flat_map(|s| &s.decls).flat_map(|d| &d.names).map(|n| n.text.clone()).collect()
+}
