@@ -52,6 +52,7 @@ codes! {
     P0010 Expected "the parser needs something else here";
     P0011 NestedTooDeep "nesting is too deep";
     P0012 NotSupportedYet "this part of the language is not supported by this version";
+    P0013 TooMuch "the parser stops here";
 
     // --- P1 names ---
     P1001 DuplicateName "this name is declared twice in one scope";

@@ -1,0 +1,156 @@
+//! CONFIGURATION, RESOURCE, TASK and program instances.
+//! From: IEC 61131-3 §6.8.2 (language reference §10.1).
+
+use super::cursor::Parser;
+use crate::syntax::ast::{Configuration, Expr, Name, ProgramDecl, Resource, TaskDecl};
+use crate::syntax::keyword::Kw;
+use crate::syntax::lexer::Tok;
+use takt_base::Span;
+use takt_base::diag::{Code, Diag};
+
+impl Parser<'_> {
+    /// CONFIGURATION ... END_CONFIGURATION; the keyword is the current token.
+    pub(super) fn configuration(&mut self) -> Configuration {
+        let opener = self.here();
+        self.bump();
+        let name = self.head_name("the name of the configuration", opener);
+        let mut configuration = Configuration { name, globals: Vec::new(), resources: Vec::new() };
+        let mut direct = empty_resource(None);
+        while !self.at_end() && self.kw() != Kw::EndConfiguration {
+            match self.kw() {
+                Kw::Resource => configuration.resources.extend(self.resource()),
+                kw if kw.is_section() => configuration.globals.extend(self.var_section()),
+                kw if ends_resource(kw) => break,
+                _ => self.resource_member(&mut direct),
+            }
+        }
+        if !direct.tasks.is_empty() || !direct.programs.is_empty() {
+            configuration.resources.insert(0, direct);
+        }
+        self.close_declaration(Kw::EndConfiguration, opener, "CONFIGURATION");
+        configuration
+    }
+
+    fn head_name(&mut self, what: &str, opener: Span) -> Name {
+        let name = self.declared_name(what);
+        if self.lost {
+            self.skip_head();
+        }
+        name.unwrap_or(Name { text: String::new(), span: opener.end_point() })
+    }
+
+    fn resource(&mut self) -> Option<Resource> {
+        let opener = self.here();
+        self.bump();
+        let mut resource = empty_resource(Some(self.head_name("the name of the resource", opener)));
+        if self.eat_kw(Kw::On) && !self.eat(Tok::Word) {
+            self.expected("the type of the resource, for example PLC");
+            self.skip_head();
+        }
+        while !self.at_end() && self.kw() != Kw::EndResource {
+            match self.kw() {
+                kw if kw.is_section() => resource.globals.extend(self.var_section()),
+                kw if ends_resource(kw) || kw == Kw::Resource => break,
+                _ => self.resource_member(&mut resource),
+            }
+        }
+        self.close_declaration(Kw::EndResource, opener, "RESOURCE");
+        Some(resource)
+    }
+
+    /// A task or a program, with its `;`.
+    fn resource_member(&mut self, resource: &mut Resource) {
+        match self.kw() {
+            Kw::Task => resource.tasks.extend(self.task()),
+            Kw::Program => resource.programs.extend(self.program_instance()),
+            _ if self.eat(Tok::Semi) => return,
+            _ => {
+                self.expected("TASK or PROGRAM");
+                self.bump();
+            }
+        }
+        if self.lost {
+            self.skip_declaration();
+        } else if !self.eat(Tok::Semi) {
+            self.missing_semicolon("this line");
+        }
+    }
+
+    fn task(&mut self) -> Option<TaskDecl> {
+        self.bump();
+        let name = self.declared_name("the name of the task")?;
+        let mut task = TaskDecl { name, single: None, interval: None, priority: None };
+        let paren = self.here();
+        if !self.expect(Tok::LParen, "`(` and the properties of the task") {
+            return Some(task);
+        }
+        while self.at(Tok::Word) && !self.lost {
+            self.task_property(&mut task);
+            if !self.eat(Tok::Comma) {
+                break;
+            }
+        }
+        self.closing(Tok::RParen, ")", paren);
+        Some(task)
+    }
+
+    fn task_property(&mut self, task: &mut TaskDecl) {
+        let property = self.name();
+        if !self.expect(Tok::Assign, "`:=` and the value of the property") {
+            return;
+        }
+        let value: Expr = self.expr();
+        let slot = match property.key().as_str() {
+            "SINGLE" => &mut task.single,
+            "INTERVAL" => &mut task.interval,
+            "PRIORITY" => &mut task.priority,
+            _ => {
+                let diag = Diag::new(Code::Expected, property.span, "not a property of a task");
+                self.soft(diag.message("expected SINGLE, INTERVAL or PRIORITY"));
+                return;
+            }
+        };
+        if slot.replace(value).is_some() {
+            let diag = Diag::new(Code::DuplicateName, property.span, format!("{} is given twice", property.text));
+            self.soft(diag);
+        }
+    }
+
+    fn program_instance(&mut self) -> Option<ProgramDecl> {
+        self.bump();
+        let retain = match self.kw() {
+            Kw::Retain => Some(true),
+            Kw::NonRetain => Some(false),
+            _ => None,
+        };
+        if retain.is_some() {
+            self.bump();
+        }
+        let name = self.declared_name("the name of the program instance")?;
+        let task = if self.eat_kw(Kw::With) { Some(self.declared_name("the name of a task")?) } else { None };
+        if !self.colon("the type of the program") {
+            return None;
+        }
+        let ty = self.declared_name("the name of a PROGRAM")?;
+        let connections = if self.at(Tok::LParen) { self.program_connections() } else { Vec::new() };
+        Some(ProgramDecl { name, retain, task, ty, connections })
+    }
+
+    fn program_connections(&mut self) -> Vec<crate::syntax::ast::Arg> {
+        if self.nth(1).kind == Tok::Word && self.nth(2).kw == Kw::With {
+            self.unsupported_here("a function block with a task of its own");
+            self.lost = true;
+            return Vec::new();
+        }
+        self.connections()
+    }
+}
+
+fn empty_resource(name: Option<Name>) -> Resource {
+    Resource { name, globals: Vec::new(), tasks: Vec::new(), programs: Vec::new() }
+}
+
+/// True if a resource can't go on here.
+fn ends_resource(kw: Kw) -> bool {
+    kw.ends_declaration() || matches!(kw, Kw::Configuration | Kw::Function | Kw::FunctionBlock | Kw::Type)
+}

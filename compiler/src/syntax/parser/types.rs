@@ -1,0 +1,323 @@
+//! Types where they are used, and TYPE ... END_TYPE.
+//! From: IEC 61131-3 §6.4 (language reference §2, §3.9).
+
+use super::cursor::Parser;
+use crate::syntax::ast::{EnumDecl, Expr, Init, Name, TypeBody, TypeDecl, TypeRef, TypeRefKind, VarDecl};
+use crate::syntax::keyword::Kw;
+use crate::syntax::lexer::Tok;
+use takt_base::Span;
+use takt_base::diag::{Code, Diag};
+
+impl Parser<'_> {
+    /// TYPE ... END_TYPE; TYPE is the current token.
+    pub(super) fn type_section(&mut self) -> Vec<TypeDecl> {
+        let opener = self.here();
+        self.bump();
+        let mut list = Vec::new();
+        while !self.at_end() && !self.kw().ends_declaration() && !self.kw().opens_declaration() && !self.kw().is_section() {
+            if self.eat(Tok::Semi) {
+                continue;
+            }
+            let before = self.pos;
+            list.extend(self.type_decl());
+            if self.lost {
+                self.skip_declaration();
+            }
+            if self.pos == before {
+                self.bump();
+            }
+        }
+        self.close_declaration(Kw::EndType, opener, "TYPE");
+        list
+    }
+
+    fn type_decl(&mut self) -> Option<TypeDecl> {
+        let name = self.declared_name("the name of a type")?;
+        if self.kw() == Kw::Extends {
+            self.unsupported_here("EXTENDS");
+        }
+        if !self.colon("the type") {
+            return None;
+        }
+        let body = self.type_body();
+        let init = self.optional_init();
+        if !self.lost && !self.eat(Tok::Semi) && self.prev().kw != Kw::EndStruct {
+            self.missing_semicolon("this type");
+        }
+        Some(TypeDecl { name, body, init })
+    }
+
+    fn type_body(&mut self) -> TypeBody {
+        match self.type_ref() {
+            TypeRef { kind: TypeRefKind::Enum(e), .. } => TypeBody::Enum(e),
+            TypeRef { kind: TypeRefKind::Struct(members), .. } => TypeBody::Struct(members),
+            other => TypeBody::Ref(other),
+        }
+    }
+
+    /// A colon; `:=` and `=` are understood as one.
+    pub(super) fn colon(&mut self, before: &str) -> bool {
+        if self.eat(Tok::Colon) {
+            return true;
+        }
+        self.expected(&format!("`:` and {before}"));
+        false
+    }
+
+    /// `:= value`, if it stands here.
+    pub(super) fn optional_init(&mut self) -> Option<Init> {
+        if self.lost {
+            return None;
+        }
+        if self.at(Tok::Eq) || self.at(Tok::CEq) {
+            let diag = self.expected_diag("`:=` before an initial value").help("write :=");
+            self.soft(diag);
+        } else if !self.at(Tok::Assign) {
+            return None;
+        }
+        self.bump();
+        let init = self.init();
+        if self.at(Tok::Comma) {
+            let diag = self.expected_diag("`;` behind the initial value");
+            self.error(diag.help("write the values of an array in brackets: [1, 2, 3]"));
+        }
+        Some(init)
+    }
+
+    /// A type.
+    pub(super) fn type_ref(&mut self) -> TypeRef {
+        let start = self.here();
+        if !self.enter() {
+            self.leave();
+            return TypeRef { kind: TypeRefKind::Error, span: start };
+        }
+        let kind = self.type_kind();
+        self.leave();
+        TypeRef { kind, span: self.since(start) }
+    }
+
+    fn type_kind(&mut self) -> TypeRefKind {
+        match self.kw() {
+            Kw::Array => self.array(),
+            Kw::Struct => self.structure(),
+            Kw::String | Kw::Wstring => self.string(),
+            Kw::RefTo => self.reference("REF_TO"),
+            Kw::Pointer if self.nth(1).kw == Kw::To => self.reference("POINTER TO"),
+            Kw::Reference if self.nth(1).kw == Kw::To => self.reference("REFERENCE TO"),
+            Kw::Union => self.union(),
+            _ if self.at(Tok::LParen) => self.enumeration(None),
+            kw if self.at(Tok::Word) && (!kw.is_reserved() || kw.is_type() || self.is_used_as_name(kw)) => self.named(),
+            _ => {
+                self.expected("a type");
+                TypeRefKind::Error
+            }
+        }
+    }
+
+    fn named(&mut self) -> TypeRefKind {
+        let is_type = self.kw().is_type();
+        let name = self.bare_name();
+        if self.at(Tok::Dot) {
+            self.unsupported_here("a name in a namespace");
+            while self.eat(Tok::Dot) && self.at(Tok::Word) {
+                self.bump();
+            }
+            return TypeRefKind::Error;
+        }
+        if !self.at(Tok::LParen) {
+            return TypeRefKind::Named(name);
+        }
+        let is_list = self.nth(1).kind == Tok::Word && matches!(self.nth(2).kind, Tok::Assign | Tok::Comma | Tok::RParen);
+        match is_list {
+            true if is_type => self.enumeration(Some(name)),
+            true => {
+                self.unsupported_here("initialising an instance with arguments");
+                self.connections();
+                TypeRefKind::Error
+            }
+            false => self.subrange(name),
+        }
+    }
+
+    fn subrange(&mut self, base: Name) -> TypeRefKind {
+        let paren = self.here();
+        self.bump();
+        let (low, high) = self.range();
+        self.closing(Tok::RParen, ")", paren);
+        TypeRefKind::Subrange { base, low: Box::new(low), high: Box::new(high) }
+    }
+
+    /// `low..high`.
+    fn range(&mut self) -> (Expr, Expr) {
+        let low = self.expr();
+        if self.lost || !self.expect(Tok::Range, "`..` and the upper bound") {
+            let high = super::expr::error(self.here());
+            return (low, high);
+        }
+        (low, self.expr())
+    }
+
+    fn array(&mut self) -> TypeRefKind {
+        self.bump();
+        let bracket = self.here();
+        if self.at(Tok::LParen) {
+            let diag = self.expected_diag("`[` and the bounds of the array").help("write ARRAY [0..9] OF INT");
+            self.error(diag);
+            return TypeRefKind::Error;
+        }
+        if !self.expect(Tok::LBracket, "`[` and the bounds of the array") {
+            return TypeRefKind::Error;
+        }
+        let mut dims = Vec::new();
+        loop {
+            if self.at(Tok::Star) {
+                self.unsupported_here("an array of variable length");
+                self.bump();
+            } else {
+                dims.push(self.range());
+            }
+            if self.lost || !self.eat(Tok::Comma) {
+                break;
+            }
+        }
+        self.closing(Tok::RBracket, "]", bracket);
+        if self.lost || !self.expect_word(Kw::Of, "OF and the type of the elements") {
+            return TypeRefKind::Error;
+        }
+        let element = Box::new(self.type_ref());
+        if dims.is_empty() { TypeRefKind::Error } else { TypeRefKind::Array { dims, element } }
+    }
+
+    /// Takes a keyword or reports that it is missing.
+    pub(super) fn expect_word(&mut self, kw: Kw, what: &str) -> bool {
+        self.eat_kw(kw) || {
+            self.expected(what);
+            false
+        }
+    }
+
+    fn string(&mut self) -> TypeRefKind {
+        let wide = self.bump().kw == Kw::Wstring;
+        let opener = self.here();
+        let (close, text) = match self.kind() {
+            Tok::LBracket => (Tok::RBracket, "]"),
+            Tok::LParen => (Tok::RParen, ")"),
+            _ => return TypeRefKind::String { wide, capacity: None },
+        };
+        self.bump();
+        if self.eat(Tok::Star) {
+            self.unsupported_here("a string of variable length");
+        }
+        let capacity = Some(Box::new(self.expr()));
+        self.closing(close, text, opener);
+        TypeRefKind::String { wide, capacity }
+    }
+
+    fn enumeration(&mut self, base: Option<Name>) -> TypeRefKind {
+        let start = base.as_ref().map_or(self.here(), |b| b.span);
+        let paren = self.here();
+        self.bump();
+        let mut values = Vec::new();
+        while let Some(name) = self.declared_name("the name of a value") {
+            let value = self.eat(Tok::Assign).then(|| self.expr());
+            values.push((name, value));
+            if self.lost || !self.eat(Tok::Comma) {
+                break;
+            }
+        }
+        self.closing(Tok::RParen, ")", paren);
+        let base = match base {
+            None if self.kw().is_type() && !self.lost => Some(self.bare_name()),
+            base => base,
+        };
+        TypeRefKind::Enum(EnumDecl { base, values, span: self.since(start) })
+    }
+
+    fn structure(&mut self) -> TypeRefKind {
+        let opener = self.here();
+        self.bump();
+        if self.kw() == Kw::Overlap || self.kw() == Kw::Extends {
+            let what = self.kw().text();
+            self.unsupported_here(what);
+            if self.bump().kw == Kw::Extends && self.at(Tok::Word) {
+                self.bump();
+            }
+        }
+        TypeRefKind::Struct(self.members(Kw::EndStruct, opener, "STRUCT"))
+    }
+
+    /// Members up to `end`.
+    fn members(&mut self, end: Kw, opener: Span, opener_name: &str) -> Vec<VarDecl> {
+        let mut list = Vec::new();
+        while !self.at_end() && self.kw() != end {
+            let kw = self.kw();
+            if kw.ends_declaration() || kw.opens_declaration() || kw.is_section() {
+                break;
+            }
+            let before = self.pos;
+            if !self.eat(Tok::Semi) {
+                list.extend(self.var_decl());
+            }
+            if self.pos == before {
+                self.bump();
+            }
+        }
+        if !self.eat_kw(end) {
+            let diag = self.expected_diag(end.text()).also(opener, format!("the {opener_name} is opened here"));
+            self.soft(diag);
+        }
+        list
+    }
+
+    fn union(&mut self) -> TypeRefKind {
+        let opener = self.here();
+        self.unsupported_here("UNION");
+        self.bump();
+        self.members(Kw::EndUnion, opener, "UNION");
+        TypeRefKind::Error
+    }
+
+    fn reference(&mut self, what: &str) -> TypeRefKind {
+        self.unsupported_here(what);
+        if self.bump().kw != Kw::RefTo {
+            self.bump();
+        }
+        self.type_ref();
+        TypeRefKind::Error
+    }
+
+    /// A `;` that a declaration lacks; what follows on the next line is another declaration.
+    pub(super) fn missing_semicolon(&mut self, behind: &str) {
+        let diag = self.missing_diag("`;`").message(format!("expected `;` behind {behind}"));
+        if self.is_first_on_line() || self.kw().is_reserved() {
+            self.soft(diag);
+        } else {
+            let diag = self.expected_diag(&format!("`;` behind {behind}"));
+            self.error(diag);
+            self.skip_declaration();
+        }
+    }
+
+    /// The closing keyword of a declaration or section that was opened at `opener`; reports if another stands here.
+    pub(super) fn close_declaration(&mut self, want: Kw, opener: Span, opener_name: &str) {
+        if self.eat_kw(want) {
+            self.eat(Tok::Semi);
+            return;
+        }
+        let found = self.kw();
+        if !(self.unwinding && self.at_end()) {
+            let diag = Diag::new(Code::Expected, self.here(), self.describe(self.peek()));
+            let diag = diag.message(format!("expected {}", want.text()));
+            self.soft(diag.also(opener, format!("the {opener_name} is opened here")));
+        }
+        if found.ends_declaration() && found != Kw::EndVar && is_unit_end(found) == is_unit_end(want) {
+            self.bump();
+            self.eat(Tok::Semi);
+        }
+    }
+}
+
+/// True for the end of a unit, which a section can't take for its own.
+fn is_unit_end(kw: Kw) -> bool {
+    matches!(kw, Kw::EndFunction | Kw::EndFunctionBlock | Kw::EndProgram | Kw::EndClass | Kw::EndInterface)
+}

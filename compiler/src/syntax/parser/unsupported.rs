@@ -1,0 +1,105 @@
+//! Parts of the language that this version lacks: one message, then on behind their end.
+
+use super::cursor::Parser;
+use crate::syntax::keyword::Kw;
+use crate::syntax::lexer::Tok;
+use takt_base::diag::{Code, Diag};
+
+/// Declarations by opening and closing keyword.
+const CONSTRUCTS: [(Kw, Kw); 8] = [
+    (Kw::Class, Kw::EndClass),
+    (Kw::Interface, Kw::EndInterface),
+    (Kw::Namespace, Kw::EndNamespace),
+    (Kw::Method, Kw::EndMethod),
+    (Kw::Property, Kw::EndProperty),
+    (Kw::Action, Kw::EndAction),
+    (Kw::Actions, Kw::EndActions),
+    (Kw::Resource, Kw::EndResource),
+];
+
+/// First words of instructions of Instruction List.
+const INSTRUCTIONS: [&str; 12] = ["LD", "LDN", "ST", "STN", "CAL", "CALC", "CALCN", "ANDN", "ORN", "XORN", "JMPC", "RETC"];
+
+impl Parser<'_> {
+    pub(super) fn unsupported_diag(&self, what: &str) -> Diag {
+        let diag = Diag::new(Code::NotSupportedYet, self.here(), "not in this version");
+        diag.message(format!("{what} is not supported by this version"))
+    }
+
+    /// Reports that what starts at the current token is missing in this version.
+    pub(super) fn unsupported_here(&mut self, what: &str) {
+        let diag = self.unsupported_diag(what);
+        self.soft(diag);
+    }
+
+    /// A construct of a file; false if none stands here.
+    pub(super) fn unsupported_item(&mut self) -> bool {
+        if self.kw() == Kw::Using {
+            self.unsupported_here("USING");
+            self.skip_declaration();
+            return true;
+        }
+        if matches!(self.kw(), Kw::VarAccess | Kw::VarConfig) {
+            self.var_section();
+            return true;
+        }
+        self.unsupported_construct()
+    }
+
+    fn unsupported_construct(&mut self) -> bool {
+        let kw = self.kw();
+        let Some(&(open, close)) = CONSTRUCTS.iter().find(|c| c.0 == kw) else { return false };
+        if !kw.is_reserved() && self.nth(1).kind != Tok::Word {
+            return false;
+        }
+        if kw == Kw::Resource {
+            let diag = self.expected_diag("a declaration").help("a RESOURCE stands inside of a CONFIGURATION");
+            self.soft(diag);
+        } else {
+            self.unsupported_here(kw.text());
+        }
+        self.skip_construct(open, close);
+        true
+    }
+
+    /// A construct between the statements of a unit; false if none stands here.
+    pub(super) fn unsupported_body(&mut self) -> bool {
+        match self.kw() {
+            Kw::Method | Kw::Property | Kw::Action | Kw::Actions if self.nth(1).kind == Tok::Word => self.unsupported_construct(),
+            Kw::InitialStep | Kw::Step | Kw::Transition if self.nth(1).kind == Tok::Word => {
+                self.unsupported_here("Sequential Function Chart");
+                self.skip_body();
+                true
+            }
+            Kw::None if self.is_instruction() => {
+                let diag = self.unsupported_diag("Instruction List in a text file");
+                self.soft(diag.help("write the body in ST"));
+                self.skip_body();
+                true
+            }
+            _ => false,
+        }
+    }
+
+    /// `LD x`, and no `;`, `:=` or the like behind the first word.
+    fn is_instruction(&self) -> bool {
+        let word = self.text_of(self.peek());
+        let next = self.nth(1).kind;
+        let operand =
+            matches!(next, Tok::Word | Tok::Int | Tok::Real | Tok::Based | Tok::Direct | Tok::Duration | Tok::TypePrefix);
+        self.at(Tok::Word) && operand && INSTRUCTIONS.iter().any(|i| i.eq_ignore_ascii_case(word))
+    }
+
+    /// To the end of the unit.
+    fn skip_body(&mut self) {
+        while !self.at_end() {
+            let kw = self.kw();
+            let inner = matches!(kw, Kw::EndAction | Kw::EndStep | Kw::EndTransition | Kw::EndVar);
+            if kw.ends_declaration() && !inner || kw.opens_declaration() {
+                break;
+            }
+            self.bump();
+        }
+        self.found_place();
+    }
+}

@@ -1,0 +1,213 @@
+//! Variable sections and their declarations.
+//! From: IEC 61131-3 §6.5 (language reference §3).
+
+use super::cursor::Parser;
+use super::literal::problem_diag;
+use crate::syntax::ast::{Address, Edge, Name, SectionKind, TypeRef, TypeRefKind, VarDecl, VarSection};
+use crate::syntax::keyword::Kw;
+use crate::syntax::lexer::Tok;
+use crate::syntax::literal::address;
+use takt_base::Span;
+use takt_base::diag::{Code, Diag};
+
+/// The section that a keyword opens; `None` for those that this version lacks.
+fn section_kind(kw: Kw) -> Option<SectionKind> {
+    Some(match kw {
+        Kw::Var => SectionKind::Var,
+        Kw::VarInput => SectionKind::Input,
+        Kw::VarOutput => SectionKind::Output,
+        Kw::VarInOut => SectionKind::InOut,
+        Kw::VarTemp => SectionKind::Temp,
+        Kw::VarExternal => SectionKind::External,
+        Kw::VarGlobal => SectionKind::Global,
+        _ => return None,
+    })
+}
+
+impl Parser<'_> {
+    /// True at a keyword that opens a section, known or not.
+    pub(super) fn at_section(&self) -> bool {
+        let kw = self.kw();
+        kw.is_section() || matches!(kw, Kw::VarStat | Kw::VarInst) && self.nth(1).kind == Tok::Word
+    }
+
+    /// A section; its keyword is the current token. `None` if this version lacks it.
+    pub(super) fn var_section(&mut self) -> Option<VarSection> {
+        let start = self.here();
+        let kw = self.kw();
+        let Some(kind) = section_kind(kw) else {
+            self.unsupported_here(kw.text());
+            self.skip_construct(kw, Kw::EndVar);
+            return None;
+        };
+        self.bump();
+        let mut section = VarSection { kind, constant: false, retain: None, decls: Vec::new(), span: start };
+        self.qualifiers(&mut section);
+        section.span = self.since(start);
+        self.decls(&mut section, start, kw);
+        Some(section)
+    }
+
+    fn qualifiers(&mut self, section: &mut VarSection) {
+        loop {
+            match self.kw() {
+                Kw::Constant => section.constant = true,
+                Kw::Retain => section.retain = Some(true),
+                Kw::NonRetain => section.retain = Some(false),
+                Kw::Persistent if self.nth(1).kind == Tok::Word => {
+                    let diag = self.unsupported_diag("PERSISTENT");
+                    self.soft(diag.help("write RETAIN: the values are kept over a power failure"));
+                    section.retain = Some(true);
+                }
+                Kw::Public | Kw::Private | Kw::Protected | Kw::Internal => {
+                    let what = self.kw().text();
+                    self.unsupported_here(what);
+                }
+                _ => return,
+            }
+            self.bump();
+        }
+    }
+
+    /// Declarations and END_VAR.
+    fn decls(&mut self, section: &mut VarSection, opener: Span, kw: Kw) {
+        while !self.at_end() && self.kw() != Kw::EndVar {
+            if self.at_section() || self.kw().ends_statements() || self.is_statement() {
+                break;
+            }
+            let before = self.pos;
+            if !self.eat(Tok::Semi) {
+                section.decls.extend(self.var_decl());
+            }
+            if self.pos == before {
+                self.bump();
+            }
+        }
+        self.close_declaration(Kw::EndVar, opener, kw.text());
+    }
+
+    /// True if a statement stands here: END_VAR is missing. `x := 1;` counts only if no END_VAR follows.
+    fn is_statement(&mut self) -> bool {
+        let next = self.nth(1).kind;
+        if self.kw().opens_statement() {
+            return !matches!(next, Tok::Colon | Tok::Comma) && self.nth(1).kw != Kw::At;
+        }
+        if self.at(Tok::Word) && next == Tok::Assign {
+            return !self.end_var_follows();
+        }
+        self.at(Tok::Word) && matches!(next, Tok::Dot | Tok::LBracket | Tok::LParen)
+    }
+
+    /// True if this section is closed. Remembers where, so that many mistakes in one section do not look for it again and again.
+    fn end_var_follows(&mut self) -> bool {
+        if self.pos < self.end_var {
+            return true;
+        }
+        let ends = |kw: Kw| kw.is_section() || kw.ends_declaration() || kw.opens_declaration();
+        let found = self.tokens.list[self.pos..].iter().position(|t| ends(t.kw));
+        let found = found.filter(|&i| self.tokens.list[self.pos + i].kw == Kw::EndVar);
+        self.end_var = found.map_or(0, |i| self.pos + i);
+        found.is_some()
+    }
+
+    /// A declaration with its `;`. On a mistake the parser has skipped to the next one.
+    pub(super) fn var_decl(&mut self) -> Option<VarDecl> {
+        let decl = self.var_decl_inner();
+        if self.lost {
+            self.skip_declaration();
+        } else if decl.is_some() && !self.eat(Tok::Semi) {
+            self.missing_semicolon("this declaration");
+        }
+        decl
+    }
+
+    fn var_decl_inner(&mut self) -> Option<VarDecl> {
+        let start = self.here();
+        if self.kw().is_type() && self.nth(1).kind == Tok::Word && self.nth(1).kw != Kw::At {
+            let ty = self.bare_name();
+            self.no_colon(&[ty]);
+            return None;
+        }
+        let names = if self.kw() == Kw::At { Vec::new() } else { self.names()? };
+        let at = if self.eat_kw(Kw::At) { self.located()? } else { None };
+        if !self.at(Tok::Colon) {
+            self.no_colon(&names);
+            return None;
+        }
+        self.bump();
+        let ty = self.type_ref();
+        let edge = self.edge();
+        let init = self.optional_init();
+        if matches!(ty, TypeRef { kind: TypeRefKind::Error, .. }) && names.is_empty() {
+            return None;
+        }
+        Some(VarDecl { names, at, ty, edge, init, span: self.since(start) })
+    }
+
+    fn names(&mut self) -> Option<Vec<Name>> {
+        let mut names = vec![self.declared_name("the name of a variable")?];
+        while self.eat(Tok::Comma) {
+            names.push(self.declared_name("the name of a variable")?);
+        }
+        Some(names)
+    }
+
+    /// The address behind AT; the inner `None` stands for one that was reported.
+    fn located(&mut self) -> Option<Option<Address>> {
+        if !self.at(Tok::Direct) {
+            self.expected("a direct address such as %IX0.0");
+            return None;
+        }
+        let token = self.peek();
+        let span = self.span_of(token);
+        let address = match address::direct(self.text_of(token), span) {
+            Ok(address) => Some(address),
+            Err(_) if address::is_relative(self.text_of(token)) => {
+                self.unsupported_here("a relative address in a structure");
+                None
+            }
+            Err(problem) => {
+                self.soft(problem_diag(problem, span));
+                None
+            }
+        };
+        self.bump();
+        Some(address)
+    }
+
+    fn no_colon(&mut self, names: &[Name]) {
+        let name = names.first().map_or("x", |n| n.text.as_str());
+        let diag = self.expected_diag("`:` and a type");
+        let diag = match self.kind() {
+            Tok::Assign => diag.help(format!("write {name} : INT := ...; or END_VAR above if this is a statement")),
+            Tok::Word if names.len() == 1 && self.kw() == Kw::None => {
+                diag.help(format!("the name comes first: {} : {name};", self.text_of(self.peek())))
+            }
+            _ => diag.help(format!("write {name} : INT;")),
+        };
+        self.error(diag);
+    }
+
+    fn edge(&mut self) -> Option<Edge> {
+        if self.eat_kw(Kw::REdge) {
+            return Some(Edge::Rising);
+        }
+        self.eat_kw(Kw::FEdge).then_some(Edge::Falling)
+    }
+
+    /// Sections at the start of a unit.
+    pub(super) fn sections(&mut self) -> Vec<VarSection> {
+        let mut list = Vec::new();
+        while self.at_section() {
+            list.extend(self.var_section());
+        }
+        list
+    }
+
+    /// A section behind the first statement: reported, and understood.
+    pub(super) fn late_section(&mut self, sections: &mut Vec<VarSection>) {
+        let diag = Diag::new(Code::Expected, self.here(), "a declaration behind a statement");
+        self.soft(diag.message("expected a statement").help("declare all variables before the first statement"));
+        sections.extend(self.var_section());
+    }
+}
