@@ -81,10 +81,8 @@ mod tests {
                 for day in 1..=31 {
                     let Some(days) = days_from_date(year, month, day) else { continue };
                     let Some(ns) = days.checked_mul(DAY_NS) else { continue };
-                    assert_eq!(
-                        (days, date_of(ns), date_of(ns + DAY_NS.min(i64::MAX - ns) - 1)),
-                        (expected, (year, month, day), (year, month, day))
-                    );
+                    assert_eq!((days, date_of(ns)), (expected, (year, month, day)));
+                    assert_eq!(date_of(ns.saturating_add(DAY_NS - 1)), (year, month, day));
                     expected += 1;
                 }
             }

@@ -10,11 +10,12 @@ pub use natives::{Library, native_conversion, native_signature};
 
 macro_rules! sources {
     ($($file:literal)*) => {
-        /// The function blocks as ST text: file name and contents. The compiler parses them before the user's files.
+        /// Function blocks and procedures as ST text: file name and contents. The compiler parses them before the user's files.
         pub const SOURCES: &[(&str, &str)] = &[$(($file, include_str!(concat!("../st/", $file)))),*];
     };
 }
 
 sources! {
     "bistables.st" "edges.st" "ctu.st" "ctd.st" "ctud.st" "ton.st" "tof.st" "tp.st" "rtc.st" "sema.st"
+    "control.st" "split.st"
 }

@@ -1,4 +1,5 @@
 //! Binary-coded decimal: a digit in each four bits. From: library reference §2.5, §9.
+//! Runs: cyclic.
 
 use super::numbers::extend;
 use super::{Run, Types};

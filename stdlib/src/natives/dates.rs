@@ -1,5 +1,6 @@
 //! Functions of durations and dates that are more than an addition. A part that is out of its range gives 1970-01-01 or 00:00.
 //! From: library reference §8.
+//! Runs: cyclic.
 
 use super::Run;
 use crate::calendar::{DAY_NS, MILLISECOND_NS, SECOND_NS, date_ns, day_of_week, tod_ns};

@@ -1,5 +1,6 @@
 //! Text as values: leading blanks, then a literal of the type, with or without its prefix, and nothing behind it; everything else is
 //! 0. Integers and durations out of range saturate. From: library reference §2.4; literals as in language reference §1.5, §1.7.
+//! Runs: cyclic.
 
 use super::Types;
 use super::literals::{self, Cursor};

@@ -1,4 +1,5 @@
 //! Literals of integers, durations and dates, read from bytes without allocation. From: language reference §1.5, §1.7.
+//! Runs: cyclic.
 
 use crate::calendar::{SECOND_NS, date_ns, tod_ns};
 

@@ -1,5 +1,6 @@
 //! Transcendental functions. REAL is computed in f64 and rounded once; every NaN is the same NaN, so results agree bit for bit
 //! between machines and engines. From: library reference §3.
+//! Runs: cyclic.
 
 use super::{Run, Types};
 use crate::lookup::ConversionType;

@@ -1,5 +1,6 @@
 //! TIME, TOD, DATE and DT as numbers: TIME and TOD in milliseconds, DATE and DT in seconds. Integers drop the fraction (dates round
 //! down), reals keep it; out of range wraps, from reals saturates. From: library reference §2.1 rows g and j.
+//! Runs: cyclic.
 
 use super::Types;
 use crate::calendar::{DAY_NS, MILLISECOND_NS, SECOND_NS, midnight_of, time_of_day};

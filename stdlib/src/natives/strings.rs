@@ -1,5 +1,6 @@
 //! String functions. Each makes its result of parts of its inputs, which `store` puts one after the other. Positions count from 1.
 //! From: library reference §7.
+//! Runs: cyclic.
 
 use super::text::{Text, source, store, target, width};
 use super::{Run, Types};

@@ -1,5 +1,6 @@
 //! Strings in the resource memory: units of one byte (STRING) or two (WSTRING), ended by a zero unit, capacity given by the caller.
 //! Invariant: nothing is read outside of a source or written outside of a target, wherever they lie.
+//! Runs: cyclic.
 
 use super::Types;
 use crate::lookup::ConversionType;

@@ -1,5 +1,6 @@
 //! Values as text. From: library reference §2.3: integers decimal, bit strings `16#` and hexadecimal digits, reals the shortest
 //! decimal that reads back as the same value, times and dates as literals with their prefix.
+//! Runs: cyclic.
 
 use super::Types;
 use super::numbers::extend;
