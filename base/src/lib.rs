@@ -2,11 +2,13 @@
 
 pub mod diag;
 pub mod index;
+pub mod nearest;
 pub mod ring;
 pub mod source;
 pub mod time;
 pub mod units;
 
 pub use diag::{Code, Diag, Severity, Sink};
+pub use nearest::nearest;
 pub use source::{LineCol, SourceId, Sources, Span};
 pub use time::Nanos;

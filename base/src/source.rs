@@ -84,6 +84,11 @@ impl Sources {
         self.push(name.into(), text.into(), true)
     }
 
+    /// Adds a library file from bytes of any encoding.
+    pub fn add_library_bytes(&mut self, name: impl Into<String>, bytes: Vec<u8>) -> SourceId {
+        self.push(name.into(), decode(bytes), true)
+    }
+
     fn push(&mut self, name: String, text: String, library: bool) -> SourceId {
         let line_starts = std::iter::once(0).chain(line_ends(&text)).collect();
         self.files.push(Source { name, text, library, line_starts })

@@ -127,16 +127,32 @@ pub enum Section {
 }
 
 /// All types of a program. Equal types get the same [`TypeId`].
-#[derive(Clone, PartialEq, Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct TypeTable {
     types: IndexVec<TypeId, Type>,
     interned: HashMap<Type, TypeId>,
+}
+
+impl PartialEq for TypeTable {
+    /// The same types under the same ids; how they got there does not matter.
+    fn eq(&self, other: &Self) -> bool {
+        self.types == other.types
+    }
 }
 
 impl TypeTable {
     /// An empty table.
     pub fn new() -> Self {
         Self::default()
+    }
+    /// A table of these types, in order; the first of equal types is the one that [`TypeTable::intern`] finds.
+    pub fn from_types(types: Vec<Type>) -> Self {
+        let mut table = Self::new();
+        for ty in types {
+            let id = table.types.push(ty.clone());
+            table.interned.entry(ty).or_insert(id);
+        }
+        table
     }
     /// The id of `ty`, which is added if it is new.
     pub fn intern(&mut self, ty: Type) -> TypeId {

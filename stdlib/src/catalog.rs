@@ -15,7 +15,7 @@ pub fn functions() -> impl Iterator<Item = &'static Function> {
     GROUPS.iter().flat_map(|group| group.iter())
 }
 
-/// A standard function. Typed names (`SIN_LREAL`, `ADD_INT`) and conversions (`INT_TO_REAL`) are found by [`crate::lookup`].
+/// A standard function. Typed names (`SIN_LREAL`, `ADD_INT`) and conversions (`INT_TO_REAL`) are found by [`crate::lookup()`].
 #[derive(Clone, Copy, Debug)]
 pub struct Function {
     /// Overloaded name.

@@ -1,5 +1,11 @@
-//! Conformance, architecture, simulation and end-to-end tests. Here is what they share. See ARCHITECTURE.md.
+//! What the tests of the whole share: random numbers, random programs, whole programs on both engines, readers of conformance tables.
 
 pub mod cycle_table;
 pub mod expression_table;
+pub mod generate;
 mod markdown;
+pub mod mir_gen;
+pub mod mir_run;
+pub mod plc;
+pub mod rng;
+pub mod workloads;

@@ -118,6 +118,8 @@ codes! {
     N0011 CommentNotClosed "a comment is not closed";
     N0012 OutsideLimits "the move leaves the travel of an axis";
     N0013 NotOnGrid "the position is not a whole number of basic length units";
+    N0014 NotInThisVersion "this part of the g-code language is not supported by this version";
+    N0015 UnstableArc "a small change of this radius or end point moves the arc far" Warning;
 
     // --- C project and image files ---
     C0001 BadProjectFile "the project file can't be used";
@@ -137,9 +139,11 @@ codes! {
     F0101 WrongState "the command is not allowed in this state";
     F0102 NotHomed "the axis is not homed";
     F0103 AxisGrouped "the axis belongs to a running channel";
+    F0104 DirectionBlocked "motion in this direction is not enabled";
     F0200 FollowingError "the following error is too large";
     F0201 DriveFault "the drive reports a fault";
     F0400 QueueFull "too many commands are waiting";
+    F0500 UnsupportedOption "this option of the block is not supported by this version";
     F0600 ProgramNotLoaded "no part program is loaded";
     F0601 ProgramError "the part program has an error";
     F0602 ProgramFile "the part program file can't be read";

@@ -57,8 +57,7 @@ impl Builder<'_> {
         if place.ty == self.error || ty == self.error {
             return None;
         }
-        let bits = ends_in_part(&place) || self.is_image_bit(&place);
-        if bits || matches!(place.path.last(), Some(Step::Character(_))) {
+        if ends_in_part(&place) || matches!(place.path.last(), Some(Step::Character(_))) {
             let help = "copy it to a variable, and copy the variable back after the call";
             let label = "a part of a variable, which has no address of its own";
             self.report(Diag::new(Code::NotAVariable, e.span, label).also(note.0, note.1).help(help));

@@ -18,7 +18,11 @@ impl Builder<'_> {
         let outer = std::mem::replace(&mut self.scope, own);
         self.scope.pou = Some(id);
         if let Some(first) = decl.body.first().filter(|_| decl.external) {
-            self.unsupported(first.span, "the body of an external unit", "leave the body empty: it is provided by the controller");
+            self.unsupported(
+                first.span,
+                "the body of an external unit",
+                "leave the body empty: it is provided by the controller",
+            );
         }
         let body = self.statements(&decl.body);
         self.check_result_written(id);

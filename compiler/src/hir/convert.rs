@@ -98,7 +98,8 @@ impl Builder<'_> {
 
     fn range_help(&self, to: TypeId) -> String {
         match (self.ty(to), self.hir.types.storage(to).and_then(Elementary::int_range)) {
-            (Type::Subrange { low, high, .. }, _) | (_, Some((low, high))) => format!("write a value from {low} to {high}"),
+            (Type::Subrange { low, high, .. }, _) => format!("write a value from {low} to {high}"),
+            (_, Some((low, high))) => format!("write a value from {low} to {high}"),
             (Type::String { capacity } | Type::WString { capacity }, _) => format!("there is room for {capacity} characters"),
             _ => "write a smaller number".to_owned(),
         }
@@ -274,12 +275,6 @@ impl Builder<'_> {
             }
             _ => Err(Misfit::Type),
         }
-    }
-
-    /// Like [`Self::fit_for`], but a string is converted to exactly this capacity: for parameters.
-    pub fn fit_exact(&mut self, o: Operand, to: TypeId, note: Option<(Span, String)>) -> Expr {
-        let e = self.fit_for(o, to, note);
-        if e.ty != to && e.ty != self.error && to != self.error { self.wrap(Conversion::String, e, to) } else { e }
     }
 }
 

@@ -8,7 +8,6 @@ use crate::syntax::ast::{self, AddressSize, Area};
 use std::collections::HashMap;
 use takt_base::{Code, Diag, Span};
 use takt_image::image::Place as ImagePlace;
-use takt_image::types::Type;
 use takt_image::{Elementary, MemoryMap, TypeId};
 
 /// Bytes of each area at most.
@@ -190,18 +189,5 @@ impl Builder<'_> {
         let access = if a.area == Area::Input { Access::InputImage } else { Access::Write };
         let place = Place { base: Base::Image(self.image.place(cell)), path: Vec::new(), ty, span: a.span };
         Some(Target { place, access })
-    }
-
-    /// True if the place is one bit of the process image.
-    pub fn is_image_bit(&self, place: &Place) -> bool {
-        let at = match place.base {
-            Base::Image(at) => Some(at),
-            Base::Global(id) => self.hir.globals[id].place,
-            Base::Var(id) => self.scope.pou.and_then(|p| match self.hir.pous[p].vars[id].storage {
-                Storage::Image(at) => Some(at),
-                _ => None,
-            }),
-        };
-        matches!(at, Some(ImagePlace::Bit(..)) if matches!(self.ty(place.ty), Type::Elementary(Elementary::Bool)))
     }
 }

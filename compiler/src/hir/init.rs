@@ -74,7 +74,8 @@ impl Builder<'_> {
     /// Elements in memory order; `sizes` are the lengths of the dimensions.
     fn initial_array(&mut self, list: &[ArrayInit], element: TypeId, sizes: &[usize], default: &Const, span: Span) -> Const {
         let count = sizes.iter().fold(1usize, |n, s| n.saturating_mul(*s));
-        let mut fill = Fill { parts: Vec::new(), room: count, inner: sizes.get(1..).unwrap_or(&[]).to_vec(), element, surplus: None };
+        let mut fill =
+            Fill { parts: Vec::new(), room: count, inner: sizes.get(1..).unwrap_or(&[]).to_vec(), element, surplus: None };
         for item in list {
             self.fill(&mut fill, item, default);
         }

@@ -23,9 +23,6 @@ mod symbols;
 mod types;
 mod unit;
 
-#[cfg(test)]
-mod tests;
-
 use crate::syntax::ast;
 use builder::Builder;
 pub use config::DEFAULT_INTERVAL;

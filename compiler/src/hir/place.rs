@@ -267,8 +267,7 @@ impl Builder<'_> {
             self.report(Diag::new(Code::WrongArgumentCount, span, label).message("the array has more dimensions"));
             return None;
         }
-        let list: Vec<Option<Expr>> =
-            indices.iter().zip(dims).map(|(e, d)| self.index(e, d.low.into(), d.high.into())).collect();
+        let list: Vec<Option<Expr>> = indices.iter().zip(dims).map(|(e, d)| self.index(e, d.low.into(), d.high.into())).collect();
         list.into_iter().collect::<Option<Vec<_>>>().map(Step::Index)
     }
 
@@ -295,7 +294,9 @@ impl Builder<'_> {
             && let Some(value) = constant::int(c)
             && !(low..=high).contains(&value)
         {
-            self.report(Diag::new(Code::IndexOutOfRange, e.span, value.to_string()).help(format!("the bounds are {low}..{high}")));
+            self.report(
+                Diag::new(Code::IndexOutOfRange, e.span, value.to_string()).help(format!("the bounds are {low}..{high}")),
+            );
             return None;
         }
         Some(if o.ty == to { o } else { self.wrap(Conversion::Integer, o, to) })

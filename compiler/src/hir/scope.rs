@@ -86,7 +86,7 @@ impl Builder<'_> {
     /// Reports an unknown name with the nearest known one.
     pub fn unknown(&mut self, code: Code, name: &ast::Name, known: Vec<String>) {
         let mut diag = Diag::new(code, name.span, "not found");
-        if let Some(near) = nearest(&name.key(), &known) {
+        if let Some(near) = takt_base::nearest(&name.text, known.iter().map(String::as_str)) {
             diag = diag.help(format!("did you mean `{near}`?"));
         }
         self.report(diag);
@@ -96,7 +96,8 @@ impl Builder<'_> {
     pub fn value_names(&self) -> Vec<String> {
         let vars = self.scope.pou.map(|p| self.hir.pous[p].vars.iter().map(|v| v.name.clone()));
         let globals = self.hir.globals.iter().map(|g| g.name.clone());
-        let enums = self.symbols.types.iter().filter_map(|t| if let ast::TypeBody::Enum(e) = &t.decl.body { Some(e) } else { None });
+        let enums =
+            self.symbols.types.iter().filter_map(|t| if let ast::TypeBody::Enum(e) = &t.decl.body { Some(e) } else { None });
         let values = enums.flat_map(|e| &e.values).map(|(n, _)| n.text.clone());
         vars.into_iter().flatten().chain(globals).chain(values).collect()
     }
@@ -106,27 +107,4 @@ impl Builder<'_> {
         let types = self.symbols.types.iter().map(|t| t.decl.name.text.clone());
         types.chain(self.hir.pous.iter().map(|p| p.name.clone())).collect()
     }
-}
-
-/// The known name that differs least, if it differs by at most a third of its letters and not by more than two.
-pub(super) fn nearest<'a>(name: &str, known: &'a [String]) -> Option<&'a str> {
-    let room = (name.len() / 3).clamp(1, 2);
-    let distance = |k: &String| edit_distance(name, &k.to_ascii_uppercase(), room).map(|d| (d, k));
-    known.iter().filter_map(distance).min_by_key(|(d, k)| (*d, k.as_str())).map(|(_, k)| k.as_str())
-}
-
-/// Insertions, deletions and replacements between two names; `None` if more than `most`.
-fn edit_distance(a: &str, b: &str, most: usize) -> Option<usize> {
-    if a.len().abs_diff(b.len()) > most || a.len() > 64 || b.len() > 66 {
-        return None;
-    }
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, x) in a.bytes().enumerate() {
-        let mut diagonal = std::mem::replace(&mut row[0], i + 1);
-        for (j, y) in b.bytes().enumerate() {
-            let cost = (diagonal + usize::from(x != y)).min(row[j] + 1).min(row[j + 1] + 1);
-            diagonal = std::mem::replace(&mut row[j + 1], cost);
-        }
-    }
-    Some(row[b.len()]).filter(|&d| d <= most && d > 0)
 }

@@ -24,7 +24,9 @@ impl Builder<'_> {
                 StmtKind::If { branches, otherwise: self.statements(otherwise) }
             }
             ast::StmtKind::Case { selector, arms, otherwise } => self.case(selector, arms, otherwise.as_deref())?,
-            ast::StmtKind::For { variable, from, to, by, body } => self.for_loop(variable, from, to, by.as_ref(), body, s.span)?,
+            ast::StmtKind::For { variable, from, to, by, body } => {
+                self.for_loop(variable, from, to, by.as_ref(), body, s.span)?
+            }
             ast::StmtKind::While { condition, body } => {
                 let condition = self.condition(condition);
                 StmtKind::While { condition, body: self.loop_body(body) }

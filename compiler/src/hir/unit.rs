@@ -53,7 +53,9 @@ impl Builder<'_> {
         let used = self.type_ref(result);
         if matches!(self.ty(used.ty), Type::Instance(_)) {
             let label = format!("{} has memory", self.show(used.ty));
-            self.report(Diag::new(Code::SectionNotAllowed, result.span, label).message("a function can't return a function block"));
+            self.report(
+                Diag::new(Code::SectionNotAllowed, result.span, label).message("a function can't return a function block"),
+            );
         }
         let var = self.push_var(id, &decl.name, used.ty, Role::Result, Storage::Local, used.default);
         self.hir.pous[id].result = Some(var);
@@ -84,7 +86,15 @@ impl Builder<'_> {
         }
     }
 
-    fn declare_var(&mut self, id: PouId, pou: &ast::Pou, section: &ast::VarSection, d: &ast::VarDecl, name: &ast::Name, used: &TypeUse) {
+    fn declare_var(
+        &mut self,
+        id: PouId,
+        pou: &ast::Pou,
+        section: &ast::VarSection,
+        d: &ast::VarDecl,
+        name: &ast::Name,
+        used: &TypeUse,
+    ) {
         let role = match section.kind {
             SectionKind::Input => Role::Input,
             SectionKind::Output => Role::Output,
@@ -161,7 +171,10 @@ impl Builder<'_> {
             (Section::Var, Role::Local),
             (Section::Hidden, Role::Hidden),
         ] {
-            let vars = self.hir.pous[id].vars.enumerate().filter(|(v, var)| var.role == role && self.image.area_of_var(id, *v).is_none());
+            let vars = self.hir.pous[id]
+                .vars
+                .enumerate()
+                .filter(|(v, var)| var.role == role && self.image.area_of_var(id, *v).is_none());
             order.extend(vars.map(|(v, _)| (section, v)));
         }
         let retained = retained(decl);

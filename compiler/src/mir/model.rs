@@ -70,6 +70,14 @@ pub struct Function {
     pub blocks: IndexVec<BlockId, Block>,
 }
 
+impl Function {
+    /// Line of the first instruction: where a fault at entry is reported.
+    pub fn first_line(&self) -> Option<LineId> {
+        let entry = self.blocks.get(BlockId(0))?;
+        Some(entry.insts.first().map_or(entry.end_line, |i| i.line))
+    }
+}
+
 /// Instructions without a branch, then one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Block {
@@ -139,7 +147,8 @@ pub enum Op {
     CopyBytes { to: Addr, from: Addr, size: u32 },
     /// Fills bytes.
     FillBytes { to: Addr, size: u32, value: u8 },
-    /// Copies a zero-ended string, cut to the capacity of the target (units of 1 or 2 bytes), and ends it with a zero unit.
+    /// Copies a zero-ended string, cut to the capacity of the target (units of 1 or 2 bytes), and ends it with a zero unit. The two
+    /// are the same or do not overlap.
     CopyString { to: Addr, to_capacity: u32, from: Addr, from_capacity: u32, unit: u32 },
     /// `dst` (I8) = -1, 0 or 1: order of two zero-ended strings by code unit.
     CompareString { dst: Local, a: Addr, a_capacity: u32, b: Addr, b_capacity: u32, unit: u32 },
@@ -260,6 +269,6 @@ pub enum End {
     Switch { value: Local, cases: Vec<(i64, BlockId)>, otherwise: BlockId },
     /// Leaves the function.
     Return(Option<Local>),
-    /// Always traps.
+    /// Always traps. If the block does nothing else, native code may report the line of the branch that led to it.
     Trap(Trap),
 }

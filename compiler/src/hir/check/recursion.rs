@@ -27,8 +27,13 @@ pub(super) fn check(builder: &mut Builder) {
 /// Number of the strongly connected component of each unit (Tarjan, without recursion).
 fn components(called: &[Vec<(PouId, Span)>]) -> Vec<usize> {
     let count = called.len();
-    let mut search =
-        Search { order: vec![usize::MAX; count], low: vec![0; count], component: vec![usize::MAX; count], stack: Vec::new(), next: 0 };
+    let mut search = Search {
+        order: vec![usize::MAX; count],
+        low: vec![0; count],
+        component: vec![usize::MAX; count],
+        stack: Vec::new(),
+        next: 0,
+    };
     for root in 0..count {
         if search.order[root] == usize::MAX {
             search.visit(root, called);

@@ -55,11 +55,11 @@ impl Builder<'_> {
     fn typed_literal(&mut self, e: Elementary, value: &Literal, span: Span) -> Operand {
         let to = self.elem(e);
         let inner = match value {
-            Literal::Int { value, .. } if e.is_char() => return self.character(e, *value, span),
+            Literal::Int { value, .. } if e.is_char() => return self.code_of(e, *value, span),
             Literal::Int { value, .. } => self.flex_int(*value, true, span),
             Literal::Bool(b) if e == Elementary::Bool => self.flex_int(i128::from(*b), true, span),
             // `WCHAR#'x'` is written with single quotes too.
-            Literal::String(s) if e == Elementary::Wchar && s.len() == 1 => return self.character(e, s[0].into(), span),
+            Literal::String(s) if e == Elementary::Wchar && s.len() == 1 => return self.code_of(e, s[0].into(), span),
             Literal::Typed { .. } => return self.bad_literal(e, span),
             Literal::Time { nanos, .. } if e.is_duration() || e.is_date() => {
                 return Operand::fixed(constant_expr(Const::Int((*nanos).into()), to, span));
@@ -77,7 +77,7 @@ impl Builder<'_> {
         Operand::fixed(expr)
     }
 
-    fn character(&mut self, e: Elementary, code: i128, span: Span) -> Operand {
+    fn code_of(&mut self, e: Elementary, code: i128, span: Span) -> Operand {
         let to = self.elem(e);
         match constant::checked(e, code) {
             Ok(c) => Operand::fixed(constant_expr(c, to, span)),

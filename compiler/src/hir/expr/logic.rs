@@ -36,12 +36,15 @@ fn parts(e: &Expr) -> Vec<&Expr> {
 }
 
 fn indices(place: &Place) -> Vec<&Expr> {
-    let step = |s| match s {
-        &Step::Index(ref list) => list.iter().collect(),
-        Step::Character(e) => vec![&**e],
+    place.path.iter().flat_map(step_indices).collect()
+}
+
+fn step_indices(step: &Step) -> Vec<&Expr> {
+    match step {
+        Step::Index(list) => list.iter().collect(),
+        Step::Character(e) => vec![e.as_ref()],
         Step::Field(_) | Step::Part { .. } => vec![],
-    };
-    place.path.iter().flat_map(step).collect()
+    }
 }
 
 /// True if a user's unit is called.

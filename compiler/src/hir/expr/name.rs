@@ -25,7 +25,7 @@ impl Builder<'_> {
     }
 
     /// True if the name can only be an enumerator, which needs the context to be understood.
-    pub(super) fn is_enumerator(&self, e: &ast::Expr) -> bool {
+    pub fn is_enumerator(&self, e: &ast::Expr) -> bool {
         match &e.kind {
             ast::ExprKind::Name(n) => self.local(&n.key()).is_none() && self.symbols.enumerators.contains_key(&n.key()),
             _ => false,

@@ -188,7 +188,12 @@ impl Builder<'_> {
     fn sign(&mut self, op: UnaryOp, o: Operand, span: Span) -> Operand {
         let e = self.elementary(o.expr.ty);
         if !e.is_some_and(|e| e.is_int() || e.is_real() || e.is_duration()) || o.flex == Flex::Text {
-            return self.bad_operand(if op == UnaryOp::Neg { "-" } else { "+" }, o.expr.ty, span, "a sign needs a number or a duration");
+            return self.bad_operand(
+                if op == UnaryOp::Neg { "-" } else { "+" },
+                o.expr.ty,
+                span,
+                "a sign needs a number or a duration",
+            );
         }
         if op == UnaryOp::Plus {
             return o;
@@ -239,7 +244,9 @@ fn operator_help(op: BinaryOp, ty: &Type) -> &'static str {
     match ty {
         Type::String { .. } | Type::WString { .. } if op == BinaryOp::Add => "write CONCAT(a, b)",
         Type::Elementary(e) if e.is_bit() && !is_logic(op) => "convert the bit string first, for example with WORD_TO_UINT",
-        Type::Elementary(e) if !e.is_bit() && is_logic(op) => "logic needs BOOL or bit strings; convert first, for example with INT_TO_WORD",
+        Type::Elementary(e) if !e.is_bit() && is_logic(op) => {
+            "logic needs BOOL or bit strings; convert first, for example with INT_TO_WORD"
+        }
         Type::Enum { .. } => "values of an enumeration only compare with = and <>",
         Type::Struct(_) | Type::Instance(_) | Type::Array { .. } => "compare the members one by one",
         _ => "",

@@ -55,13 +55,13 @@ impl Builder<'_> {
     }
 
     /// An integer exponent as LINT, a real one in the type of the base.
-    pub(super) fn exponent(&mut self, b: Operand, base: TypeId) -> Option<Expr> {
+    pub fn exponent(&mut self, b: Operand, base: TypeId) -> Option<Expr> {
         let e = self.elementary(b.expr.ty);
         let lint = self.elem(Elementary::Lint);
         match (b.flex, e) {
             (Flex::Int { .. }, _) => Some(self.fit(b, lint)),
             (Flex::Real, _) => Some(self.fit(b, base)),
-            (Flex::Fixed, Some(e)) if e.is_int() => Some(self.to_lint(b.expr)),
+            (Flex::Fixed, Some(e)) if e.is_int() => Some(self.as_lint(b.expr)),
             (Flex::Fixed, Some(e)) if e.is_real() => {
                 let same = b.expr.ty == base;
                 Some(if same { b.expr } else { self.wrap(Conversion::Real, b.expr, base) })
@@ -74,7 +74,7 @@ impl Builder<'_> {
     }
 
     /// An integer of any type as LINT.
-    pub fn to_lint(&mut self, e: Expr) -> Expr {
+    pub fn as_lint(&mut self, e: Expr) -> Expr {
         let lint = self.elem(Elementary::Lint);
         if e.ty == lint { e } else { self.wrap(Conversion::Integer, e, lint) }
     }

@@ -18,7 +18,9 @@ impl Builder<'_> {
         let values = self.enum_values(decl, base);
         self.scope.values = saved;
         if values.is_empty() {
-            self.report(Diag::new(Code::BadInitializer, decl.span, "no values").message("an enumeration needs at least one value"));
+            self.report(
+                Diag::new(Code::BadInitializer, decl.span, "no values").message("an enumeration needs at least one value"),
+            );
             return self.bad_type();
         }
         let first = values[0].1;

@@ -7,7 +7,6 @@ pub(super) mod structure;
 use super::builder::Builder;
 use super::constant;
 use super::model::*;
-use super::scope::Scope;
 use super::symbols::{State, Unit};
 use crate::syntax::ast;
 use takt_base::{Code, Diag, Span};
@@ -127,7 +126,8 @@ impl Builder<'_> {
         let Some(init) = &decl.init else { return body };
         let default = self.initial(init, &body);
         // A nominal type carries its default wherever it is used; an alias only under its own name.
-        if !matches!(decl.body, ast::TypeBody::Ref(_)) || matches!(self.ty(body.ty), Type::Subrange { name: n, .. } if n == name) {
+        if !matches!(decl.body, ast::TypeBody::Ref(_)) || matches!(self.ty(body.ty), Type::Subrange { name: n, .. } if n == name)
+        {
             self.defaults.insert(body.ty, default.clone());
         }
         TypeUse { ty: body.ty, default }

@@ -1,0 +1,79 @@
+//! The keys of `takt.toml`. Unknown keys are errors; `takt explain takt.toml` prints [`super::REFERENCE`].
+
+use serde::{Deserialize, Serialize};
+
+/// The whole file.
+#[derive(Clone, Debug, Default, Deserialize, Serialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct ProjectFile {
+    pub project: ProjectKeys,
+    pub task: TaskKeys,
+    pub run: RunKeys,
+    pub motion: MotionKeys,
+}
+
+#[derive(Clone, Debug, Default, Deserialize, Serialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct ProjectKeys {
+    pub name: Option<String>,
+    pub sources: Option<Vec<String>>,
+    pub profile: Option<String>,
+}
+
+#[derive(Clone, Debug, Default, Deserialize, Serialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct TaskKeys {
+    pub interval: Option<String>,
+}
+
+#[derive(Clone, Debug, Default, Deserialize, Serialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct RunKeys {
+    pub stimulus: Option<String>,
+    pub duration: Option<String>,
+    pub stop_when: Option<String>,
+    pub on_fault: Option<String>,
+    pub watchdog: Option<String>,
+    pub picture: Option<String>,
+}
+
+#[derive(Clone, Debug, Default, Deserialize, Serialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct MotionKeys {
+    pub servo_period: Option<String>,
+    pub axis: Vec<AxisKeys>,
+    pub channel: Vec<ChannelKeys>,
+}
+
+#[derive(Clone, Debug, Default, Deserialize, Serialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct AxisKeys {
+    pub name: String,
+    pub letter: Option<char>,
+    pub v_max_mm_s: Option<f64>,
+    pub a_max_mm_s2: Option<f64>,
+    pub travel_min_mm: Option<f64>,
+    pub travel_max_mm: Option<f64>,
+    pub encoder_resolution_mm: Option<f64>,
+    pub kp: Option<f64>,
+    pub ki: Option<f64>,
+    pub kd: Option<f64>,
+    pub kff_velocity: Option<f64>,
+    pub kff_acceleration: Option<f64>,
+    pub plant_time_constant_s: Option<f64>,
+    pub following_error_max_mm: Option<f64>,
+    pub power_on_delay: Option<String>,
+}
+
+#[derive(Clone, Debug, Default, Deserialize, Serialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct ChannelKeys {
+    pub name: String,
+    pub axes: Vec<String>,
+    pub mode: Option<String>,
+    pub blu_mm: Option<f64>,
+    pub handshake: Option<bool>,
+    pub modes: Option<String>,
+    pub require_homed: Option<bool>,
+    pub aux_timeout: Option<String>,
+}

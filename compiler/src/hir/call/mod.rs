@@ -1,0 +1,110 @@
+//! Calls in expressions (§4.7): user functions, standard functions, conversions. Function blocks are called by statements, see
+//! [`super::block`].
+
+mod arguments;
+mod conversion;
+mod standard;
+mod user;
+
+pub(super) use arguments::Given;
+
+use super::builder::Builder;
+use super::convert::Operand;
+use super::model::*;
+use super::scope::Local;
+use super::symbols::Unit;
+use crate::syntax::ast;
+use takt_base::{Code, Diag, Span};
+use takt_image::TypeId;
+
+impl Builder<'_> {
+    /// A call whose value is used.
+    pub fn call(&mut self, callee: &ast::Expr, args: &[ast::Arg], span: Span, want: Option<TypeId>) -> Operand {
+        let o = self.call_any(callee, args, span, want);
+        if let ExprKind::Call { pou, .. } = &o.expr.kind
+            && self.hir.pous[*pou].result.is_none()
+        {
+            let label = format!("`{}` has no result", self.hir.pous[*pou].name);
+            self.report(Diag::new(Code::NotCallable, span, label).help("call it as a statement of its own"));
+            return self.bad(span);
+        }
+        o
+    }
+
+    /// A call whose value may be missing: a procedure counts as BOOL.
+    pub fn call_any(&mut self, callee: &ast::Expr, args: &[ast::Arg], span: Span, want: Option<TypeId>) -> Operand {
+        let ast::ExprKind::Name(name) = &callee.kind else {
+            if self.place(callee).is_some() {
+                self.not_callable(callee.span, "a variable");
+            }
+            return self.bad_call(args, span);
+        };
+        if !self.names_function(name) {
+            self.not_a_function(name);
+            return self.bad_call(args, span);
+        }
+        match self.pou(name) {
+            Some(id) => self.call_user(id, args, span),
+            None => match takt_stdlib::lookup(&name.text) {
+                Some(found) => self.call_standard(found, name, args, span, want),
+                None => self.bad_call(args, span),
+            },
+        }
+    }
+
+    /// True if a call of this name is one of a function. The result variable of a function shares its name.
+    fn names_function(&self, name: &ast::Name) -> bool {
+        let own_result = match (self.local(&name.key()), self.scope.pou) {
+            (Some(Local::Var(v)), Some(p)) => self.hir.pous[p].result == Some(v),
+            (Some(_), _) => false,
+            (None, _) => true,
+        };
+        let known = match self.symbols.units.get(&name.key()) {
+            Some((Unit::Pou(id), _)) => self.hir.pous[*id].kind == PouKind::Function,
+            Some((Unit::Type(_), _)) => false,
+            None => takt_stdlib::lookup(&name.text).is_some(),
+        };
+        own_result && known
+    }
+
+    fn not_a_function(&mut self, name: &ast::Name) {
+        let what = match (self.local(&name.key()), self.symbols.units.get(&name.key())) {
+            (Some(_), _) => "a variable",
+            (None, Some((Unit::Pou(id), _))) if self.hir.pous[*id].kind == PouKind::FunctionBlock => "a function block",
+            (None, Some((Unit::Pou(_), _))) => "a program",
+            (None, Some((Unit::Type(_), _))) => "a type",
+            (None, None) if self.symbols.globals.contains_key(&name.key()) => "a variable",
+            (None, None) => {
+                let functions = self.hir.pous.iter().filter(|p| p.kind == PouKind::Function).map(|p| p.name.clone());
+                let standard = takt_stdlib::catalog::functions().map(|f| f.name.to_owned());
+                let known = functions.chain(standard).collect();
+                return self.unknown(Code::UnknownName, name, known);
+            }
+        };
+        self.not_callable(name.span, what);
+    }
+
+    fn not_callable(&mut self, span: Span, what: &str) {
+        let help = match what {
+            "a function block" => "declare an instance in VAR and call that, in a statement of its own",
+            "a program" => "programs are run by tasks; use a function block",
+            _ => "only functions and instances of function blocks can be called",
+        };
+        self.report(Diag::new(Code::NotCallable, span, what).help(help));
+    }
+
+    /// Looks at the arguments of a call that is wrong, so that what is wrong in them is said too.
+    fn bad_call(&mut self, args: &[ast::Arg], span: Span) -> Operand {
+        for e in args.iter().filter_map(super::body::arg_expr) {
+            self.operand(e, None);
+        }
+        self.bad(span)
+    }
+
+    /// Remembers who calls whom.
+    pub(super) fn note_call(&mut self, to: PouId, span: Span) {
+        if let Some(from) = self.scope.pou {
+            self.calls.push((from, to, span));
+        }
+    }
+}

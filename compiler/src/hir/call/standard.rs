@@ -1,0 +1,393 @@
+//! Calls of standard functions: arguments in order, the common type T of those that share it, result type (library reference §1, §13).
+
+use crate::hir::builder::Builder;
+use crate::hir::convert::{Flex, Operand};
+use crate::hir::model::*;
+use crate::hir::types::STRING_MAX;
+use crate::syntax::ast::{self, BinaryOp};
+use takt_base::{Code, Diag, Span};
+use takt_image::types::Type;
+use takt_image::{Elementary, Generic, TypeId};
+use takt_stdlib::Found;
+use takt_stdlib::catalog::{Function, Intrinsic, Lowering, Pattern};
+
+impl Builder<'_> {
+    /// A call as it is written.
+    pub(super) fn call_standard(
+        &mut self,
+        found: Found,
+        name: &ast::Name,
+        args: &[ast::Arg],
+        span: Span,
+        want: Option<TypeId>,
+    ) -> Operand {
+        let Some(exprs) = self.standard_arguments(found, name, args, span) else { return self.bad(span) };
+        let hint = match found {
+            Found::Function { function, fixed: None } if matches!(function.result, Pattern::T(_)) => want,
+            Found::Function { fixed: Some(e), .. } => Some(self.elem(e)),
+            _ => None,
+        };
+        let args: Vec<_> = exprs.into_iter().map(|e| self.operand(e, hint)).collect();
+        self.apply(found, args, span, want)
+    }
+
+    /// The arguments in the order of the parameters.
+    fn standard_arguments<'t>(
+        &mut self,
+        found: Found,
+        name: &ast::Name,
+        args: &'t [ast::Arg],
+        span: Span,
+    ) -> Option<Vec<&'t ast::Expr>> {
+        let mut slots: Vec<Option<&'t ast::Expr>> = Vec::new();
+        for (position, arg) in args.iter().enumerate() {
+            let (slot, value) = match arg {
+                ast::Arg::Positional(e) => (Some(position), Some(e)),
+                ast::Arg::Input { name: formal, value } => (self.formal(found, formal), value.as_ref()),
+                ast::Arg::Output { name: formal, .. } => (self.formal(found, formal).and(None), None),
+            };
+            let (slot, value) = (slot?, value?);
+            slots.resize(slots.len().max(slot + 1), None);
+            if slots[slot].replace(value).is_some() {
+                self.error(Code::WrongArgumentCount, value.span, "given twice");
+                return None;
+            }
+        }
+        let count = slots.len();
+        let exprs: Vec<_> = slots.into_iter().flatten().collect();
+        let (least, most) = arity(found);
+        if exprs.len() != count || exprs.len() < least || exprs.len() > most {
+            let wanted = if least == most { least.to_string() } else { format!("{least} or more") };
+            let label = format!("{} given, `{}` takes {wanted}", exprs.len(), name.text);
+            self.error(Code::WrongArgumentCount, span, label);
+            return None;
+        }
+        Some(exprs)
+    }
+
+    /// Position of a formal name; those of an extensible function count up.
+    fn formal(&mut self, found: Found, formal: &ast::Name) -> Option<usize> {
+        let position = match found {
+            Found::Conversion { .. } => formal.is("IN").then_some(0),
+            Found::Function { function, .. } => {
+                let fixed = function.params.iter().position(|p| formal.is(p.name));
+                fixed.or_else(|| function.extensible.then(|| counted(function, formal)).flatten())
+            }
+        };
+        if position.is_none() {
+            let eno = formal.is("EN") || formal.is("ENO");
+            match found {
+                _ if eno => self.unsupported(formal.span, "EN and ENO", "test the condition with IF around the call"),
+                Found::Function { function, .. } => {
+                    let known = function.params.iter().map(|p| p.name.to_owned()).collect();
+                    self.unknown(Code::UnknownParameter, formal, known);
+                }
+                Found::Conversion { .. } => self.unknown(Code::UnknownParameter, formal, vec!["IN".to_owned()]),
+            }
+        }
+        position
+    }
+
+    /// The function applied to operands in order.
+    pub fn apply(&mut self, found: Found, args: Vec<Operand>, span: Span, want: Option<TypeId>) -> Operand {
+        if args.iter().any(|a| self.is_bad(a)) {
+            return self.bad(span);
+        }
+        match found {
+            Found::Conversion { from, to, truncate } => self.conversion(from, to, truncate, args, span),
+            Found::Function { function, fixed } => {
+                let fixed = fixed.map(|e| self.elem(e));
+                self.apply_function(function, fixed, args, span, want)
+            }
+        }
+    }
+
+    fn apply_function(
+        &mut self,
+        f: &Function,
+        fixed: Option<TypeId>,
+        args: Vec<Operand>,
+        span: Span,
+        want: Option<TypeId>,
+    ) -> Operand {
+        let operator = match f.lowering {
+            Lowering::Inline(i) if f.group().is_some() => operator_of(i, args.len()),
+            _ => None,
+        };
+        if let (Some(op), None) = (operator, fixed) {
+            return self.apply_operator(op, args, span, want);
+        }
+        let Some(args) = self.fit_parameters(f, fixed, args, span, want) else { return self.bad(span) };
+        if let Some(op) = operator {
+            return self.apply_operator(op, args.into_iter().map(Operand::fixed).collect(), span, fixed);
+        }
+        let common = f.params.iter().zip(&args).find(|(p, _)| matches!(p.ty, Pattern::T(_))).map(|(_, a)| a.ty);
+        let ty = self.result_type(f, common, &args, want);
+        self.finish(f, args, ty, span)
+    }
+
+    /// ADD(a, b, c) is a + b + c.
+    fn apply_operator(&mut self, op: BinaryOp, args: Vec<Operand>, span: Span, want: Option<TypeId>) -> Operand {
+        let mut args = args.into_iter();
+        let Some(first) = args.next() else { return self.bad(span) };
+        args.fold(first, |a, b| self.combine(op, a, b, span, want))
+    }
+
+    /// Every argument in the type of its parameter.
+    fn fit_parameters(
+        &mut self,
+        f: &Function,
+        fixed: Option<TypeId>,
+        args: Vec<Operand>,
+        span: Span,
+        want: Option<TypeId>,
+    ) -> Option<Vec<Expr>> {
+        let shared: Vec<_> =
+            args.iter().enumerate().filter(|(i, _)| matches!(pattern(f, *i), Pattern::T(_))).map(|(_, a)| a.clone()).collect();
+        let common = match (fixed, f.group()) {
+            (Some(ty), _) => Some(ty),
+            (None, Some(group)) => Some(self.common_type(f, group, &shared, span, want)?),
+            (None, None) => None,
+        };
+        let mut out = Vec::with_capacity(args.len());
+        for (i, arg) in args.into_iter().enumerate() {
+            let e = match pattern(f, i) {
+                Pattern::Is(e) => {
+                    let to = self.elem(e);
+                    self.fit(arg, to)
+                }
+                Pattern::T(_) => self.fit_common(arg, common?),
+                Pattern::Own(group) => self.fit_own(f, group, arg, common)?,
+            };
+            if e.ty == self.error {
+                return None;
+            }
+            out.push(e);
+        }
+        Some(out)
+    }
+
+    /// Strings keep their own capacity.
+    fn fit_common(&mut self, arg: Operand, common: TypeId) -> Expr {
+        if self.is_string(common) {
+            let text = self.as_string(arg.clone());
+            if self.is_string(text.expr.ty) {
+                return text.expr;
+            }
+        }
+        self.fit(arg, common)
+    }
+
+    /// A number of its own type: LINT, or LREAL beside a duration, or the type of the base of EXPT.
+    fn fit_own(&mut self, f: &Function, group: Generic, arg: Operand, common: Option<TypeId>) -> Option<Expr> {
+        let arg = self.decay(arg);
+        if let (Lowering::Inline(Intrinsic::Expt), Some(base)) = (f.lowering, common) {
+            return self.exponent(arg, base);
+        }
+        let (lint, lreal) = (self.elem(Elementary::Lint), self.elem(Elementary::Lreal));
+        match (arg.flex, self.elementary(arg.expr.ty)) {
+            (Flex::Int { .. }, _) => Some(self.fit(arg, lint)),
+            (Flex::Real, _) if group != Generic::AnyInt => Some(self.fit(arg, lreal)),
+            (Flex::Fixed, Some(e)) if e.is_int() => Some(self.as_lint(arg.expr)),
+            (Flex::Fixed, Some(Elementary::Lreal)) if group != Generic::AnyInt => Some(arg.expr),
+            (Flex::Fixed, Some(Elementary::Real)) if group != Generic::AnyInt => {
+                Some(self.wrap(Conversion::Real, arg.expr, lreal))
+            }
+            _ => {
+                let wanted = if group == Generic::AnyInt { "an integer" } else { "a number" };
+                let label = format!("{}, {wanted} wanted", self.show(arg.expr.ty));
+                self.error(Code::TypeMismatch, arg.expr.span, label);
+                None
+            }
+        }
+    }
+
+    /// The common type of the arguments that share one; a report if there is none or it is not in the group.
+    fn common_type(
+        &mut self,
+        f: &Function,
+        group: Generic,
+        args: &[Operand],
+        span: Span,
+        want: Option<TypeId>,
+    ) -> Option<TypeId> {
+        let mut args = args.iter().cloned();
+        let mut all = args.next()?;
+        for next in args {
+            let (a, b) = (all.expr.ty, next.expr.ty);
+            let Some((x, y)) = self.unify(all, next, want) else {
+                let label = format!("{} and {}", self.show(a), self.show(b));
+                let help = "convert one of them: write for example DINT_TO_REAL(x)";
+                self.report(Diag::new(Code::NoCommonType, span, label).help(help));
+                return None;
+            };
+            all = if x.flex == Flex::Fixed || x.flex == y.flex { larger(self, x, y) } else { y };
+        }
+        let ty = self.group_type(group, &all, want);
+        let fine = self.in_group(f, group, ty);
+        if !fine {
+            let label = format!("`{}` of {}", f.name, self.show(ty));
+            self.report(Diag::new(Code::BadOperand, span, label).help(group_help(group)));
+        }
+        fine.then_some(ty)
+    }
+
+    /// The type that the operands settle for: literals follow the wish of the context.
+    fn group_type(&mut self, group: Generic, o: &Operand, want: Option<TypeId>) -> TypeId {
+        let wanted = want.and_then(|w| self.elementary(w)).filter(|w| w.is_in(group));
+        let whole = |e: &Elementary| e.is_int() || e.is_real() || e.is_bit();
+        let e = match o.flex {
+            Flex::Int { .. } => wanted.filter(whole).or((group == Generic::AnyReal).then_some(Elementary::Lreal)),
+            Flex::Real => Some(wanted.filter(|w| w.is_real()).unwrap_or(Elementary::Lreal)),
+            Flex::Text | Flex::Fixed => return self.raised(group, o),
+        };
+        match e {
+            Some(e) => self.elem(e),
+            None => self.settle(o.clone()).ty,
+        }
+    }
+
+    /// A typed operand; an integer where a real is needed takes the smallest real that holds it.
+    fn raised(&mut self, group: Generic, o: &Operand) -> TypeId {
+        let o = if group == Generic::Any { o.clone() } else { self.decay(o.clone()) };
+        let o = if group == Generic::AnyString { self.as_string(o) } else { o };
+        let Some(e) = self.elementary(o.expr.ty).filter(|e| group == Generic::AnyReal && e.is_int()) else { return o.expr.ty };
+        match [Elementary::Real, Elementary::Lreal].into_iter().find(|r| e.widens_to(*r)) {
+            Some(real) => self.elem(real),
+            None => o.expr.ty,
+        }
+    }
+
+    fn in_group(&self, f: &Function, group: Generic, ty: TypeId) -> bool {
+        let equality = matches!(f.lowering, Lowering::Inline(Intrinsic::Eq | Intrinsic::Ne));
+        match self.ty(ty) {
+            Type::Elementary(e) => e.is_in(group),
+            Type::String { .. } | Type::WString { .. } => {
+                matches!(group, Generic::AnyString | Generic::AnyElementary | Generic::Any)
+            }
+            Type::Enum { .. } => group == Generic::Any || equality,
+            _ => group == Generic::Any,
+        }
+    }
+
+    fn result_type(&mut self, f: &Function, common: Option<TypeId>, args: &[Expr], want: Option<TypeId>) -> TypeId {
+        match f.result {
+            Pattern::Is(e) => self.elem(e),
+            Pattern::Own(_) => {
+                let wanted = want.and_then(|w| self.elementary(w)).filter(|e| e.is_int());
+                self.elem(wanted.unwrap_or(Elementary::Dint))
+            }
+            Pattern::T(_) => match common {
+                Some(ty) if self.is_string(ty) => self.text_result(f, args),
+                Some(ty) => ty,
+                None => self.error,
+            },
+        }
+    }
+
+    /// A string that holds the result: of a selection the longest input, of the others all inputs together.
+    fn text_result(&mut self, f: &Function, args: &[Expr]) -> TypeId {
+        let (mut sum, mut longest, mut wide) = (0u32, 1u32, false);
+        for arg in args {
+            let (capacity, is_wide) = match self.ty(arg.ty) {
+                Type::String { capacity } => (*capacity, false),
+                Type::WString { capacity } => (*capacity, true),
+                _ => continue,
+            };
+            (sum, longest, wide) = (sum.saturating_add(capacity), longest.max(capacity), is_wide);
+        }
+        let capacity = if f.lowering == Lowering::Native { sum.clamp(1, STRING_MAX) } else { longest };
+        self.hir.types.intern(if wide { Type::WString { capacity } } else { Type::String { capacity } })
+    }
+
+    fn finish(&mut self, f: &Function, args: Vec<Expr>, ty: TypeId, span: Span) -> Operand {
+        let kind = match f.lowering {
+            Lowering::Inline(Intrinsic::Not) => {
+                let Some(a) = args.into_iter().next() else { return self.bad(span) };
+                return self.complement(Operand::fixed(a), span, Some(ty));
+            }
+            Lowering::Inline(i) => ExprKind::Intrinsic(i, args),
+            Lowering::Native => {
+                let shared = f.params.iter().zip(&args).find(|(p, _)| matches!(p.ty, Pattern::T(_))).map(|(_, a)| a.ty);
+                let suffix = shared.map(|t| self.type_name(t)).unwrap_or_default();
+                let Some(name) = f.native(suffix) else { return self.bad(span) };
+                ExprKind::Native { name, args }
+            }
+        };
+        Operand::fixed(Expr { kind, ty, span })
+    }
+
+    /// `STRING` for a string of any capacity.
+    fn type_name(&self, ty: TypeId) -> &'static str {
+        match self.ty(ty) {
+            Type::String { .. } => "STRING",
+            Type::WString { .. } => "WSTRING",
+            Type::Elementary(e) => e.name(),
+            _ => "",
+        }
+    }
+}
+
+/// The operand of the larger type, of strings the longer.
+fn larger(b: &Builder, x: Operand, y: Operand) -> Operand {
+    let size = |o: &Operand| b.hir.types.layout(o.expr.ty).size;
+    if b.is_string(x.expr.ty) && size(&y) > size(&x) { y } else { x }
+}
+
+/// Pattern of the argument at a position.
+fn pattern(f: &Function, i: usize) -> Pattern {
+    f.params.get(i).or(f.params.last()).map_or(Pattern::T(Generic::Any), |p| p.ty)
+}
+
+/// Fewest and most arguments.
+fn arity(found: Found) -> (usize, usize) {
+    match found {
+        Found::Conversion { .. } => (1, 1),
+        Found::Function { function: f, .. } => (f.params.len(), if f.extensible { usize::MAX } else { f.params.len() }),
+    }
+}
+
+/// Position of IN3, IN4, ... behind the parameters that are listed.
+fn counted(f: &Function, formal: &ast::Name) -> Option<usize> {
+    let last = f.params.last()?;
+    let stem = last.name.trim_end_matches(|c: char| c.is_ascii_digit());
+    let first: usize = last.name[stem.len()..].parse().ok()?;
+    let (head, digits) = formal.text.split_at_checked(stem.len())?;
+    let number: usize = digits.parse().ok().filter(|n| (first..first + 64).contains(n))?;
+    head.eq_ignore_ascii_case(stem).then(|| f.params.len() - 1 + number - first)
+}
+
+/// The operator that a function of `count` arguments is.
+fn operator_of(i: Intrinsic, count: usize) -> Option<BinaryOp> {
+    let pair = |op| (count == 2).then_some(op);
+    match i {
+        Intrinsic::Add => Some(BinaryOp::Add),
+        Intrinsic::Sub => Some(BinaryOp::Sub),
+        Intrinsic::Mul => Some(BinaryOp::Mul),
+        Intrinsic::Div => Some(BinaryOp::Div),
+        Intrinsic::Mod => Some(BinaryOp::Mod),
+        Intrinsic::And => Some(BinaryOp::And),
+        Intrinsic::Or => Some(BinaryOp::Or),
+        Intrinsic::Xor => Some(BinaryOp::Xor),
+        Intrinsic::Expt => Some(BinaryOp::Power),
+        Intrinsic::Gt => pair(BinaryOp::Gt),
+        Intrinsic::Ge => pair(BinaryOp::Ge),
+        Intrinsic::Eq => pair(BinaryOp::Eq),
+        Intrinsic::Le => pair(BinaryOp::Le),
+        Intrinsic::Lt => pair(BinaryOp::Lt),
+        Intrinsic::Ne => pair(BinaryOp::Ne),
+        _ => None,
+    }
+}
+
+fn group_help(group: Generic) -> &'static str {
+    match group {
+        Generic::AnyReal => "it takes REAL or LREAL",
+        Generic::AnyBit => "it takes BOOL or bit strings; a number needs its type, such as WORD#16#FF",
+        Generic::AnyInt => "it takes integers",
+        Generic::AnyNum => "it takes numbers",
+        Generic::AnyMagnitude => "it takes numbers and durations",
+        Generic::AnyString => "it takes strings",
+        _ => "it takes elementary types",
+    }
+}

@@ -1,0 +1,69 @@
+//! Calls of the project's own functions.
+
+use super::arguments::Given;
+use crate::hir::builder::Builder;
+use crate::hir::convert::{Operand, constant_expr};
+use crate::hir::model::*;
+use crate::syntax::ast;
+use takt_base::{Code, Diag, Span};
+
+impl Builder<'_> {
+    /// A call of a function with all its parameters: what is not given has its default value.
+    pub(super) fn call_user(&mut self, id: PouId, args: &[ast::Arg], span: Span) -> Operand {
+        self.ensure_pou(id, span);
+        self.note_call(id, span);
+        let informal = args.iter().any(|a| matches!(a, ast::Arg::Positional(_)));
+        let Some(given) = self.match_arguments(id, args, span) else { return self.bad(span) };
+        let params = self.hir.pous[id].params.clone();
+        if informal && !self.all_inputs_given(id, &given, span) {
+            return self.bad(span);
+        }
+        let mut out = Vec::with_capacity(params.len());
+        for (var, given) in params.into_iter().zip(given) {
+            match self.user_argument(id, var, given, span) {
+                Some(arg) => out.push(arg),
+                None => return self.bad(span),
+            }
+        }
+        let ty = match self.hir.pous[id].result {
+            Some(result) => self.hir.pous[id].vars[result].ty,
+            None => self.bool(),
+        };
+        if ty == self.error {
+            return self.bad(span);
+        }
+        Operand::fixed(Expr { kind: ExprKind::Call { pou: id, args: out }, ty, span })
+    }
+
+    /// An informal call gives every input.
+    fn all_inputs_given(&mut self, id: PouId, given: &[Option<Given>], span: Span) -> bool {
+        let pou = &self.hir.pous[id];
+        let missing = pou.params.iter().zip(given).find(|(v, g)| pou.vars[**v].role == Role::Input && g.is_none());
+        let Some((var, _)) = missing else { return true };
+        let label = format!("input `{}` is missing", pou.vars[*var].name);
+        let help = "give all inputs in order, or name those that you give: `name := value`";
+        self.report(Diag::new(Code::WrongArgumentCount, span, label).help(help));
+        false
+    }
+
+    fn user_argument(&mut self, id: PouId, var: VarId, given: Option<Given>, span: Span) -> Option<Arg> {
+        let v = &self.hir.pous[id].vars[var];
+        Some(match (v.role, given) {
+            (Role::Input, Some(Given::Value(e))) => {
+                let value = self.input(id, var, e);
+                return (value.ty != self.error).then_some(Arg::Value(value));
+            }
+            (Role::Input, _) => Arg::Value(constant_expr(v.init.clone(), v.ty, span)),
+            (Role::InOut, Some(g)) => Arg::Reference(self.in_out(id, var, g.expr())?),
+            (Role::InOut, None) => {
+                self.missing_in_out(id, var, span);
+                return None;
+            }
+            (_, Some(Given::Value(e))) => Arg::Output { target: self.output(id, var, e, false)?, negated: false },
+            (_, Some(Given::Output { target, negated })) => {
+                Arg::Output { target: self.output(id, var, target, negated)?, negated }
+            }
+            (_, None) => Arg::Unused,
+        })
+    }
+}

@@ -1,0 +1,210 @@
+//! Tasks and program instances (§10.1, §10.2). A project without CONFIGURATION runs one instance of each of its programs.
+
+use super::body::{arg_expr, expression_addresses};
+use super::builder::Builder;
+use super::convert::Operand;
+use super::model::*;
+use super::symbols::Unit;
+use crate::syntax::ast;
+use std::collections::HashMap;
+use takt_base::{Code, Diag, Nanos, Span};
+use takt_image::Elementary;
+
+/// Period of the task that is made up when there is no CONFIGURATION.
+pub const DEFAULT_INTERVAL: Nanos = Nanos::from_millis(20);
+/// Name of that task.
+const DEFAULT_TASK: &str = "Main";
+/// Name of the task of programs without a task: it runs when nothing else does.
+const BACKGROUND_TASK: &str = "Background";
+/// Lowest priority.
+const PRIORITY_MAX: i128 = 65_535;
+
+impl<'a> Builder<'a> {
+    /// Makes the tasks.
+    pub fn configure(&mut self) {
+        let resources: Vec<&'a ast::Resource> = self.symbols.configurations.iter().flat_map(|c| &c.resources).collect();
+        if self.symbols.configurations.is_empty() {
+            return self.default_configuration();
+        }
+        if let Some(second) = resources.get(1) {
+            let name = second.name.as_ref().or_else(|| second.programs.first().map(|p| &p.name));
+            if let Some(name) = name {
+                self.unsupported(name.span, "a second resource", "put all tasks into one resource");
+            }
+        }
+        if let Some(resource) = resources.first() {
+            self.resource(resource);
+        }
+    }
+
+    fn default_configuration(&mut self) {
+        let mine = self.hir.pous.enumerate().filter(|(id, p)| p.kind == PouKind::Program && !self.symbols.pous[*id].library);
+        let programs: Vec<_> = mine.map(|(pou, p)| instance(p.name.clone(), pou)).collect();
+        if !programs.is_empty() {
+            let interval = Some(DEFAULT_INTERVAL);
+            self.hir.tasks.push(Task { name: DEFAULT_TASK.to_owned(), priority: 0, interval, single: None, programs });
+        }
+    }
+
+    fn resource(&mut self, resource: &'a ast::Resource) {
+        let mut names: HashMap<String, Span> = HashMap::new();
+        for decl in &resource.tasks {
+            let task = self.task(decl);
+            if self.unique(&mut names, &decl.name) {
+                self.hir.tasks.push(task);
+            }
+        }
+        let mut names = HashMap::new();
+        for decl in &resource.programs {
+            let program = self.program(decl);
+            if let (Some(program), true) = (program, self.unique(&mut names, &decl.name)) {
+                self.assign_task(decl, program);
+            }
+        }
+    }
+
+    fn unique(&mut self, names: &mut HashMap<String, Span>, name: &ast::Name) -> bool {
+        let first = *names.entry(name.key()).or_insert(name.span);
+        if first != name.span {
+            self.report(Diag::new(Code::DuplicateName, name.span, "declared again").also(first, "first declared"));
+        }
+        first == name.span
+    }
+
+    fn task(&mut self, decl: &ast::TaskDecl) -> Task {
+        let interval = decl.interval.as_ref().and_then(|e| self.interval(e));
+        let priority = decl.priority.as_ref().map_or(0, |e| self.priority(e));
+        let single = decl.single.as_ref().and_then(|e| self.trigger(e));
+        Task { name: decl.name.text.clone(), priority, interval, single, programs: Vec::new() }
+    }
+
+    /// `None` for no period at all.
+    fn interval(&mut self, e: &ast::Expr) -> Option<Nanos> {
+        let time = self.elem(Elementary::Time);
+        let ns = self.const_of(e, time)?;
+        if ns < 0 {
+            self.report(Diag::new(Code::BadTask, e.span, "a negative interval").help("write for example INTERVAL := T#10ms"));
+        }
+        i64::try_from(ns).ok().filter(|ns| *ns > 0).map(Nanos)
+    }
+
+    fn priority(&mut self, e: &ast::Expr) -> u32 {
+        let Some(value) = self.const_int(e) else { return 0 };
+        if !(0..=PRIORITY_MAX).contains(&value) {
+            let help = format!("priorities are 0 (highest) to {PRIORITY_MAX}");
+            self.report(Diag::new(Code::BadTask, e.span, value.to_string()).help(help));
+            return 0;
+        }
+        value as u32
+    }
+
+    /// SINGLE: a BOOL that is a global or a direct address.
+    fn trigger(&mut self, e: &ast::Expr) -> Option<Place> {
+        let bool = self.bool();
+        let place = self.place(e)?.place;
+        if place.ty != bool || !place.path.is_empty() {
+            let label = format!("{}, a BOOL global or address wanted", self.show(place.ty));
+            self.report(Diag::new(Code::BadTask, e.span, label).help("a rising edge of this variable starts the task"));
+            return None;
+        }
+        Some(place)
+    }
+
+    fn program(&mut self, decl: &'a ast::ProgramDecl) -> Option<ProgramInstance> {
+        let pou = match self.symbols.units.get(&decl.ty.key()) {
+            Some(&(Unit::Pou(id), _)) if self.hir.pous[id].kind == PouKind::Program => id,
+            Some(_) => {
+                let diag = Diag::new(Code::UnknownType, decl.ty.span, "not a PROGRAM").message("a task runs programs");
+                self.report(diag.help("wrap it: declare an instance in a PROGRAM and call it there"));
+                return None;
+            }
+            None => {
+                let known = self.hir.pous.iter().filter(|p| p.kind == PouKind::Program).map(|p| p.name.clone()).collect();
+                self.unknown(Code::UnknownType, &decl.ty, known);
+                return None;
+            }
+        };
+        let mut program = instance(decl.name.text.clone(), pou);
+        for arg in &decl.connections {
+            self.connect(&mut program, arg, decl.name.span);
+        }
+        Some(program)
+    }
+
+    /// `in := global`, `out => global`.
+    fn connect(&mut self, program: &mut ProgramInstance, arg: &ast::Arg, at: Span) {
+        match arg {
+            ast::Arg::Input { name, value: Some(value) } => {
+                if let Some((var, ty)) = self.connected(program.pou, name, &[Role::Input]) {
+                    let value = self.value(value, ty);
+                    program.inputs.push((var, value));
+                }
+            }
+            ast::Arg::Output { name, negated: false, target: Some(target) } => {
+                let Some((var, ty)) = self.connected(program.pou, name, &[Role::Output]) else { return };
+                let Some(place) = self.writable(target) else { return };
+                let from = Expr { kind: ExprKind::Load(place.clone()), ty, span: target.span };
+                if self.fit(Operand::fixed(from), place.ty).ty != self.error {
+                    program.outputs.push((var, place));
+                }
+            }
+            ast::Arg::Input { name, .. } | ast::Arg::Output { name, .. } => {
+                self.unsupported(name.span, "this connection", "write `input := value` or `output => variable`");
+            }
+            ast::Arg::Positional(e) => {
+                self.report(
+                    Diag::new(Code::UnknownParameter, e.span, "no name").also(at, "program").help("write `name := value`"),
+                );
+            }
+        }
+    }
+
+    fn connected(&mut self, pou: PouId, name: &ast::Name, roles: &[Role]) -> Option<(VarId, takt_image::TypeId)> {
+        let vars = &self.hir.pous[pou].vars;
+        let found = vars.enumerate().find(|(_, v)| name.is(&v.name) && roles.contains(&v.role)).map(|(id, v)| (id, v.ty));
+        if found.is_none() {
+            let known = vars.iter().filter(|v| roles.contains(&v.role)).map(|v| v.name.clone()).collect();
+            self.unknown(Code::UnknownParameter, name, known);
+        }
+        found
+    }
+
+    fn assign_task(&mut self, decl: &ast::ProgramDecl, program: ProgramInstance) {
+        let Some(name) = &decl.task else { return self.background(program) };
+        match self.hir.tasks.iter_mut().find(|t| name.is(&t.name)) {
+            Some(task) => task.programs.push(program),
+            None => {
+                let known: Vec<_> = self.hir.tasks.iter().map(|t| t.name.clone()).collect();
+                let diag = Diag::new(Code::UnknownTask, name.span, "not declared");
+                self.report(match takt_base::nearest(&name.text, known.iter().map(String::as_str)) {
+                    Some(near) => diag.help(format!("did you mean `{near}`?")),
+                    None => diag.help("declare it: TASK name (INTERVAL := T#10ms, PRIORITY := 1);"),
+                });
+            }
+        }
+    }
+
+    fn background(&mut self, program: ProgramInstance) {
+        let found = self.hir.tasks.iter().position(|t| t.name == BACKGROUND_TASK);
+        let at = found.unwrap_or_else(|| {
+            let priority = u32::MAX;
+            let task = Task { name: BACKGROUND_TASK.to_owned(), priority, interval: None, single: None, programs: Vec::new() };
+            self.hir.tasks.push(task);
+            self.hir.tasks.len() - 1
+        });
+        self.hir.tasks[at].programs.push(program);
+    }
+}
+
+fn instance(name: String, pou: PouId) -> ProgramInstance {
+    ProgramInstance { name, pou, inputs: Vec::new(), outputs: Vec::new() }
+}
+
+/// Reports every direct address in a configuration.
+pub(super) fn addresses<'t>(c: &'t ast::Configuration, on: &mut dyn FnMut(&'t ast::Address)) {
+    for r in &c.resources {
+        let singles = r.tasks.iter().filter_map(|t| t.single.as_ref());
+        let connected = r.programs.iter().flat_map(|p| &p.connections).filter_map(arg_expr);
+        expression_addresses(singles.chain(connected).collect(), on);
+    }
+}

@@ -1,0 +1,215 @@
+//! The data area: where globals, program instances and constants lie, what they contain at the start, and the symbols that name
+//! them. From: language reference §3.6, §3.11.
+
+use super::init::{Chunks, constant};
+use crate::hir::model::*;
+use std::collections::{BTreeMap, HashMap};
+use std::ops::Range;
+use takt_base::index::IndexVec;
+use takt_base::{Code, Diag, SourceId, Span};
+use takt_image::image::{Chunk, Place as ImagePlace, Symbol};
+use takt_image::memory::{FRAME_BYTES, MAX_MEMORY};
+use takt_image::{Elementary, MemoryMap, Type, TypeId, TypeTable};
+
+/// Places of everything that lives as long as the program.
+pub struct Data {
+    /// Of each global.
+    pub globals: IndexVec<GlobalId, ImagePlace>,
+    /// Offsets of the program instances, by task and by position in the task.
+    pub instances: Vec<Vec<u32>>,
+    /// Constants that code refers to, by contents and unit of alignment.
+    pool: HashMap<Vec<u8>, u32>,
+    /// Initial contents of globals and instances, then of the pool.
+    chunks: Chunks,
+    /// Offsets between which all global variables with function blocks in them lie.
+    pub named_instances: Range<u64>,
+    start: u32,
+    next: u64,
+}
+
+/// Memory map without data: the process image lies in front of it, so its offsets don't depend on the data.
+fn process_image(hir: &Hir) -> Option<MemoryMap> {
+    let [i, q, m] = hir.image_bytes;
+    MemoryMap::new(i, q, m, 0, 0)
+}
+
+impl Data {
+    /// Lays out globals in order, then the program instances of all tasks in order.
+    pub fn new(hir: &Hir) -> Result<Self, Diag> {
+        let map = process_image(hir).ok_or_else(|| too_large(nowhere(), "the process image"))?;
+        let start = map.data.start;
+        let mut data = Data {
+            globals: IndexVec::new(),
+            instances: Vec::new(),
+            pool: HashMap::new(),
+            chunks: Chunks::default(),
+            named_instances: 0..0,
+            start,
+            next: start as u64,
+        };
+        image_contents(hir, &map, &mut data.chunks);
+        for g in hir.globals.iter() {
+            let place = g.place.map_or_else(|| data.global(hir, g), Ok)?;
+            data.globals.push(place);
+        }
+        for task in &hir.tasks {
+            let places: Result<_, _> = task.programs.iter().map(|p| data.instance(hir, p)).collect();
+            data.instances.push(places?);
+        }
+        Ok(data)
+    }
+
+    fn global(&mut self, hir: &Hir, g: &Global) -> Result<ImagePlace, Diag> {
+        let offset = self.reserve(hir, g.ty, g.span, &g.name)?;
+        if has_instance(&hir.types, g.ty) {
+            let first = if self.named_instances.is_empty() { offset as u64 } else { self.named_instances.start };
+            self.named_instances = first..self.next;
+        }
+        constant(&hir.types, g.ty, &g.init, &mut |at, bytes| self.chunks.put(offset + at, bytes));
+        Ok(ImagePlace::Byte(offset))
+    }
+
+    fn instance(&mut self, hir: &Hir, program: &ProgramInstance) -> Result<u32, Diag> {
+        let pou = &hir.pous[program.pou];
+        let Some(ty) = pou.instance else { return Ok(self.start) };
+        let offset = self.reserve(hir, ty, pou.end, &program.name)?;
+        for var in pou.vars.iter() {
+            if let Some(field) = field_offset(hir, ty, var) {
+                constant(&hir.types, var.ty, &var.init, &mut |at, bytes| self.chunks.put(offset + field + at, bytes));
+            }
+        }
+        Ok(offset)
+    }
+
+    fn reserve(&mut self, hir: &Hir, ty: TypeId, span: Span, name: &str) -> Result<u32, Diag> {
+        let layout = hir.types.layout(ty);
+        self.take(layout.size, layout.align).ok_or_else(|| too_large(span, name))
+    }
+
+    fn take(&mut self, size: u32, align: u32) -> Option<u32> {
+        let offset = self.next.next_multiple_of(align.max(1) as u64);
+        let end = offset + size as u64;
+        if end > MAX_MEMORY as u64 {
+            return None;
+        }
+        self.next = end;
+        Some(offset as u32)
+    }
+
+    /// Place of constant bytes, shared by all who need the same. `None` if the memory is full.
+    pub fn pooled(&mut self, bytes: Vec<u8>) -> Option<u32> {
+        if let Some(&offset) = self.pool.get(&bytes) {
+            return Some(offset);
+        }
+        let offset = self.take(u32::try_from(bytes.len()).ok()?, 8)?;
+        self.chunks.put(offset, &bytes);
+        self.pool.insert(bytes, offset);
+        Some(offset)
+    }
+
+    /// The finished memory.
+    pub fn finish(self, hir: &Hir) -> Option<(MemoryMap, Vec<Chunk>)> {
+        let [i, q, m] = hir.image_bytes;
+        let size = u32::try_from(self.next - self.start as u64).ok()?;
+        Some((MemoryMap::new(i, q, m, size, FRAME_BYTES)?, self.chunks.finish()))
+    }
+}
+
+/// True if a function block is in a variable of this type.
+fn has_instance(types: &TypeTable, ty: TypeId) -> bool {
+    match types.get(ty) {
+        Type::Instance(_) => true,
+        Type::Array { element, .. } => has_instance(types, *element),
+        Type::Struct(r) => r.fields.iter().any(|f| has_instance(types, f.ty)),
+        _ => false,
+    }
+}
+
+/// Offset of an instance variable in its record; `None` for temporaries, located and reference variables.
+fn field_offset(hir: &Hir, instance: TypeId, var: &Var) -> Option<u32> {
+    match var.storage {
+        Storage::Field(i) if var.role != Role::InOut => super::place::field(&hir.types, instance, i).map(|f| f.offset),
+        _ => None,
+    }
+}
+
+/// Initial values of located variables. Those on %I are ignored (§3.4).
+fn image_contents(hir: &Hir, map: &MemoryMap, chunks: &mut Chunks) {
+    let mut bytes = BTreeMap::new();
+    let located = hir.globals.iter().filter_map(|g| Some((g.place?, g.ty, &g.init)));
+    let programs = hir.pous.iter().filter(|p| p.reachable && p.kind == PouKind::Program);
+    let in_programs = programs.flat_map(|p| p.vars.iter()).filter_map(|v| match v.storage {
+        Storage::Image(place) => Some((place, v.ty, &v.init)),
+        _ => None,
+    });
+    for (place, ty, init) in located.chain(in_programs) {
+        constant(&hir.types, ty, init, &mut |at, value| match place {
+            ImagePlace::Byte(offset) => {
+                value.iter().enumerate().for_each(|(i, b)| _ = bytes.insert(offset + at + i as u32, *b));
+            }
+            ImagePlace::Bit(offset, bit) => {
+                let set = value.first().is_some_and(|b| *b != 0);
+                *bytes.entry(offset).or_insert(0) |= u8::from(set) << (bit & 7);
+            }
+        });
+    }
+    let kept = bytes.into_iter().filter(|(o, _)| !map.inputs.range().contains(&(*o as usize)));
+    kept.for_each(|(offset, byte)| chunks.put(offset, &[byte]));
+}
+
+/// Names for monitor and runtime: globals, program instances, and located variables of programs as `instance.variable`.
+pub fn symbols(hir: &Hir, data: &Data) -> Vec<Symbol> {
+    let globals = hir.globals.iter().zip(data.globals.iter()).map(|(g, place)| Symbol {
+        name: g.name.clone(),
+        ty: g.ty,
+        place: *place,
+        constant: g.constant,
+        retain: g.retain,
+    });
+    let programs = hir.tasks.iter().zip(&data.instances).flat_map(|(t, offsets)| t.programs.iter().zip(offsets));
+    globals.chain(programs.flat_map(|(p, offset)| program_symbols(hir, p, *offset))).collect()
+}
+
+fn program_symbols(hir: &Hir, program: &ProgramInstance, offset: u32) -> Vec<Symbol> {
+    let pou = &hir.pous[program.pou];
+    let symbol = |name: String, ty, place| Symbol { name, ty, place, constant: false, retain: false };
+    let itself = pou.instance.map(|ty| symbol(program.name.clone(), ty, ImagePlace::Byte(offset)));
+    let located = pou.vars.iter().filter(|v| v.role != Role::Hidden).filter_map(|v| match v.storage {
+        Storage::Image(place) => Some(symbol(format!("{}.{}", program.name, v.name), v.ty, place)),
+        _ => None,
+    });
+    itself.into_iter().chain(located).collect()
+}
+
+/// The message for memory that is not there.
+pub fn too_large(span: Span, what: &str) -> Diag {
+    Diag::new(Code::TypeTooLarge, span, format!("{what} does not fit"))
+        .help(format!("a program has {} MiB of memory in all; make arrays smaller", MAX_MEMORY >> 20))
+}
+
+pub fn nowhere() -> Span {
+    Span::new(SourceId(0), 0, 0)
+}
+
+/// Bytes of a constant of a type, zeros included.
+pub fn bytes_of(hir: &Hir, ty: TypeId, value: &Const) -> Vec<u8> {
+    let mut bytes = vec![0; hir.types.layout(ty).size as usize];
+    constant(&hir.types, ty, value, &mut |at, part| {
+        if let Some(place) = bytes.get_mut(at as usize..at as usize + part.len()) {
+            place.copy_from_slice(part);
+        }
+    });
+    bytes
+}
+
+/// The stored form of an integer or real constant.
+pub fn scalar_bytes(e: Elementary, value: &Const) -> Vec<u8> {
+    match (value, e) {
+        (Const::Int(i), Elementary::Real) => (*i as f32).to_le_bytes().to_vec(),
+        (Const::Int(i), Elementary::Lreal) => (*i as f64).to_le_bytes().to_vec(),
+        (Const::Int(i), _) => i.to_le_bytes()[..e.bytes() as usize].to_vec(),
+        (Const::Real(r), Elementary::Real) => (*r as f32).to_le_bytes().to_vec(),
+        (Const::Real(r), _) => r.to_le_bytes()[..e.bytes() as usize].to_vec(),
+        _ => vec![0; e.bytes() as usize],
+    }
+}

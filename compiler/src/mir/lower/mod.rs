@@ -1,0 +1,125 @@
+//! From the typed program to MIR and the data parts of the image. The program is well formed: what can still be wrong is its size.
+//!
+//! Invariant: an address that the code makes is inside of the object that the program named, or the code has trapped before.
+
+mod builder;
+mod call;
+mod case;
+mod convert;
+mod counted;
+mod data;
+mod expr;
+mod graph;
+mod index;
+mod init;
+mod interval;
+mod intrinsic;
+mod lines;
+mod native;
+mod operator;
+mod place;
+mod shape;
+mod stmt;
+mod task;
+mod time;
+mod unit;
+mod walk;
+
+use crate::hir::model::*;
+use crate::mir::model::{FuncId, Module, NativeId};
+use data::Data;
+use lines::Lines;
+use takt_base::index::IndexVec;
+use takt_base::{Diag, Sources};
+use takt_image::image::{Chunk, Symbol, Task};
+use takt_image::memory::MAX_MEMORY;
+use takt_image::{MemoryMap, NativeImport};
+
+/// A lowered program: everything of an image but the machine code.
+#[derive(Clone, Debug)]
+pub struct Lowered {
+    /// The code.
+    pub module: Module,
+    /// Sizes of the memory's parts.
+    pub memory: MemoryMap,
+    /// Initial contents.
+    pub init: Vec<Chunk>,
+    /// Named variables.
+    pub symbols: Vec<Symbol>,
+    /// Tasks; their functions are indices into the module's.
+    pub tasks: Vec<Task>,
+}
+
+/// What the functions of a program share while they are lowered.
+pub struct Program<'h> {
+    hir: &'h Hir,
+    lines: Lines<'h>,
+    data: Data,
+    /// Of each unit that is lowered; `None` for external and unreachable ones.
+    functions: IndexVec<PouId, Option<FuncId>>,
+    /// Units that can be entered again while they run.
+    recursive: IndexVec<PouId, bool>,
+    natives: IndexVec<NativeId, NativeImport>,
+    diags: Vec<Diag>,
+}
+
+/// Lowers a program that was checked without errors.
+pub fn lower(hir: &Hir, sources: &Sources) -> Result<Lowered, Vec<Diag>> {
+    let too_large = oversized(hir);
+    if !too_large.is_empty() {
+        return Err(too_large);
+    }
+    let data = Data::new(hir).map_err(|d| vec![d])?;
+    let mut program = Program::new(hir, sources, data);
+    let mut module = Module::default();
+    for id in hir.pous.indices().filter(|id| is_lowered(&hir.pous[*id])) {
+        module.functions.push(unit::function(&mut program, id));
+    }
+    let tasks = task::tasks(&mut program, &mut module);
+    program.finish(module, tasks)
+}
+
+fn is_lowered(pou: &Pou) -> bool {
+    pou.reachable && !pou.external
+}
+
+/// Variables whose type alone is larger than the memory.
+fn oversized(hir: &Hir) -> Vec<Diag> {
+    let vars = hir.pous.iter().filter(|p| p.reachable).flat_map(|p| p.vars.iter());
+    let all = vars.map(|v| (v.ty, v.span, &v.name)).chain(hir.globals.iter().map(|g| (g.ty, g.span, &g.name)));
+    let large = all.filter(|(ty, ..)| hir.types.layout(*ty).size > MAX_MEMORY);
+    large.map(|(_, span, name)| data::too_large(span, &format!("`{name}`"))).collect()
+}
+
+impl<'h> Program<'h> {
+    fn new(hir: &'h Hir, sources: &'h Sources, data: Data) -> Self {
+        let mut next = 0;
+        let number = |pou: &Pou| {
+            is_lowered(pou).then(|| {
+                next += 1;
+                FuncId(next - 1)
+            })
+        };
+        let functions = hir.pous.iter().map(number).collect();
+        let (lines, recursive) = (Lines::new(sources), graph::recursive(hir));
+        Program { hir, lines, data, functions, recursive, natives: IndexVec::new(), diags: Vec::new() }
+    }
+
+    /// The number of an import, the same for all its calls.
+    fn import(&mut self, import: NativeImport) -> NativeId {
+        let known = self.natives.enumerate().find(|(_, n)| **n == import).map(|(id, _)| id);
+        known.unwrap_or_else(|| self.natives.push(import))
+    }
+
+    fn finish(self, mut module: Module, tasks: Vec<Task>) -> Result<Lowered, Vec<Diag>> {
+        if !self.diags.is_empty() {
+            return Err(self.diags);
+        }
+        let symbols = data::symbols(self.hir, &self.data);
+        let Some((memory, init)) = self.data.finish(self.hir) else {
+            return Err(vec![data::too_large(data::nowhere(), "the program")]);
+        };
+        (module.natives, module.lines, module.files) = (self.natives, self.lines.lines, self.lines.files);
+        Ok(Lowered { module, memory, init, symbols, tasks })
+    }
+}

@@ -1,0 +1,115 @@
+//! Looks through statements for what changes memory: writes, places handed out by reference, calls.
+
+use crate::hir::model::*;
+
+/// Something that may change memory.
+pub enum Event<'a> {
+    /// Assigned here.
+    Write(&'a Place),
+    /// Handed to somebody by address: VAR_IN_OUT, or VAR_OUTPUT of a function.
+    Lend(&'a Place),
+    /// A unit is called.
+    Call(PouId),
+}
+
+/// Reports all events of the statements, nested ones included.
+pub fn statements<'a>(body: &'a [Stmt], on: &mut dyn FnMut(Event<'a>)) {
+    body.iter().for_each(|s| statement(s, on));
+}
+
+fn statement<'a>(stmt: &'a Stmt, on: &mut dyn FnMut(Event<'a>)) {
+    match &stmt.kind {
+        StmtKind::Assign { target, value } => {
+            write(target, on);
+            expression(value, on);
+        }
+        StmtKind::CallBlock { instance, pou, inputs, outputs } => {
+            place(instance, on);
+            inputs.iter().for_each(|(_, a)| argument(a, on));
+            on(Event::Call(*pou));
+            outputs.iter().for_each(|o| write(&o.target, on));
+        }
+        StmtKind::Call(e) => expression(e, on),
+        StmtKind::If { branches, otherwise } => {
+            for (condition, body) in branches {
+                expression(condition, on);
+                statements(body, on);
+            }
+            statements(otherwise, on);
+        }
+        StmtKind::Case { selector, arms, otherwise } => {
+            expression(selector, on);
+            arms.iter().for_each(|(_, body)| statements(body, on));
+            statements(otherwise, on);
+        }
+        StmtKind::For { variable, from, to, by, body } => {
+            write(variable, on);
+            [from, to, by].iter().for_each(|e| expression(e, on));
+            statements(body, on);
+        }
+        StmtKind::While { condition, body } | StmtKind::Repeat { body, until: condition } => {
+            expression(condition, on);
+            statements(body, on);
+        }
+        StmtKind::Exit | StmtKind::Continue | StmtKind::Return => {}
+    }
+}
+
+/// Reports all events of an expression.
+pub fn expression<'a>(e: &'a Expr, on: &mut dyn FnMut(Event<'a>)) {
+    match &e.kind {
+        ExprKind::Const(_) => {}
+        ExprKind::Load(p) => place(p, on),
+        ExprKind::Neg(a) | ExprKind::Not(a) | ExprKind::Convert(_, a) => expression(a, on),
+        ExprKind::Binary(_, a, b) => {
+            expression(a, on);
+            expression(b, on);
+        }
+        ExprKind::Call { pou, args } => {
+            args.iter().for_each(|a| argument(a, on));
+            on(Event::Call(*pou));
+        }
+        ExprKind::Intrinsic(_, args) | ExprKind::Native { args, .. } => args.iter().for_each(|a| expression(a, on)),
+    }
+}
+
+/// Reports all events of an argument.
+pub fn argument<'a>(arg: &'a Arg, on: &mut dyn FnMut(Event<'a>)) {
+    match arg {
+        Arg::Value(e) => expression(e, on),
+        Arg::Reference(p) | Arg::Output { target: p, .. } => {
+            place(p, on);
+            on(Event::Lend(p));
+        }
+        Arg::Unused => {}
+    }
+}
+
+fn write<'a>(p: &'a Place, on: &mut dyn FnMut(Event<'a>)) {
+    place(p, on);
+    on(Event::Write(p));
+}
+
+fn place<'a>(p: &'a Place, on: &mut dyn FnMut(Event<'a>)) {
+    for step in &p.path {
+        match step {
+            Step::Index(indices) => indices.iter().for_each(|e| expression(e, on)),
+            Step::Character(e) => expression(e, on),
+            Step::Field(_) | Step::Part { .. } => {}
+        }
+    }
+}
+
+/// True if evaluating the expression calls a user's unit, which may change anything.
+pub fn calls(e: &Expr) -> bool {
+    let mut found = false;
+    expression(e, &mut |event| found |= matches!(event, Event::Call(_)));
+    found
+}
+
+/// Like [`calls`], for an argument.
+pub fn argument_calls(arg: &Arg) -> bool {
+    let mut found = false;
+    argument(arg, &mut |event| found |= matches!(event, Event::Call(_)));
+    found
+}

@@ -1,0 +1,47 @@
+//! CNC_Run: runs the loaded part program (N3, N9).
+//! Runs: cyclic.
+
+use crate::axis::CommandId;
+use crate::natives::rules::{self, Action, Progress};
+use crate::natives::{Core, Frame};
+use crate::{block, execute_pins};
+use takt_base::Code;
+
+block! {
+    /// Cycle start from cncReady. ProgramID 0: whatever is loaded. Done at M2, M30 or the end of the file.
+    "CNC_Run", call;
+    InOut Cnc: "CNC_REF";
+    Input Execute: "BOOL";
+    Input ProgramID: "UDINT";
+    Output Done: "BOOL";
+    Output Busy: "BOOL";
+    Output Active: "BOOL";
+    Output CommandAborted: "BOOL";
+    Output Error: "BOOL";
+    Output ErrorID: "WORD";
+    Output Line: "UDINT";
+    Private Previous: "BOOL";
+    Private Command: "UDINT";
+    Private Reference: "UINT";
+}
+
+fn call(core: &mut Core, f: &mut Frame) {
+    let number = f.reference(P::Cnc);
+    let target = rules::channel(core, number);
+    rules::execute(core, f, &execute_pins!(P motion), number, target, &Action { start, poll: progress });
+    if f.bool(P::Busy)
+        && let Ok(channel) = target
+    {
+        f.set_u32(P::Line, core.channels[channel].mark().line);
+    }
+}
+
+fn start(core: &mut Core, f: &mut Frame, channel: usize) -> Result<u32, Code> {
+    let Core { axes, channels } = core;
+    channels[channel].run(f.u32(P::ProgramID), axes).map(|id| id.0)
+}
+
+fn progress(core: &mut Core, channel: usize, command: u32) -> Progress {
+    let channel = &core.channels[channel];
+    Progress { outcome: channel.outcome(CommandId(command)), active: channel.is_working() }
+}

@@ -1,0 +1,430 @@
+//! Interpolation: planned elements become positions at the servo period, in closed form.
+//! Runs: cyclic. No allocation; a tick passes at most [`QUEUE`] elements.
+//! Invariant: the path speed is never above the planned one. Without hold and override it is the planned one; they cap it, and the
+//! path is kept with at most the path acceleration of each element. From: R1-116, R1-165, CM-23, scenario S40.
+
+mod ramp;
+
+use crate::geometry::Point;
+use crate::segment::{Action, Mark, Planned, Segment};
+use ramp::{Ramp, meets};
+use std::collections::VecDeque;
+use takt_base::ring::Rx;
+
+/// Elements that wait behind the ring.
+pub const QUEUE: usize = 1024;
+/// Elements taken from the ring in one tick.
+const FILL: usize = 256;
+/// Elements that must wait before a program starts, unless it is shorter.
+const PRIMED: usize = 512;
+/// Elements kept for the path deviation.
+pub const HISTORY: usize = 64;
+/// Length of path behind the current position in which the actual position is looked for, and the least number of elements.
+const BEHIND: (f64, usize) = (5.0, 4);
+
+/// What the operator and the PLC program want, as shares of the programmed speed.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Demand {
+    /// Override of feed moves, 0..=1.
+    pub feed: f64,
+    /// Override of positioning moves, 0..=1.
+    pub rapid: f64,
+    /// Stop on the path.
+    pub hold: bool,
+}
+
+impl Default for Demand {
+    fn default() -> Self {
+        Self { feed: 1.0, rapid: 1.0, hold: false }
+    }
+}
+
+/// How far a call of [`PathExecutor::advance`] got.
+#[derive(Clone, Copy, PartialEq, Debug)]
+#[allow(clippy::large_enum_variant)] // it lives for one call, on the stack
+pub enum Reached {
+    /// The time is used up.
+    Time,
+    /// There is nothing to do.
+    Nothing,
+    /// This comes next and is not for the path; so many seconds of the tick are left.
+    Action(Planned, f64),
+}
+
+/// A planned element being executed.
+#[derive(Clone, Copy, Debug)]
+struct Current {
+    segment: Segment,
+    /// Path time in seconds; valid while following.
+    tau: f64,
+    /// Path length from its start.
+    s: f64,
+}
+
+/// How the path speed relates to the planned one.
+#[derive(Clone, Copy, PartialEq, Debug)]
+enum Pace {
+    /// It is the planned one: path time runs with real time.
+    Plan,
+    /// It is this, in mm/s, and below the plan: on the way to a cap, at a cap, or on the way back.
+    Free(f64),
+}
+
+/// The cyclic end of a channel's path.
+pub struct PathExecutor {
+    queue: VecDeque<Planned>,
+    queued_mm: f64,
+    accel_min: f64,
+    current: Option<Current>,
+    dwell_s: f64,
+    pace: Pace,
+    feed_override: bool,
+    primed: bool,
+    position: Point,
+    history: [Option<Segment>; HISTORY],
+    history_next: usize,
+    /// Length executed, feed moves alone.
+    pub feed_mm: f64,
+    /// Blocks of the part program that were begun.
+    pub blocks: u32,
+    last: Mark,
+}
+
+impl PathExecutor {
+    /// At rest at `position`.
+    pub fn new(position: Point) -> Self {
+        Self {
+            queue: VecDeque::with_capacity(QUEUE),
+            queued_mm: 0.0,
+            accel_min: f64::INFINITY,
+            current: None,
+            dwell_s: 0.0,
+            pace: Pace::Plan,
+            feed_override: true,
+            primed: false,
+            position,
+            history: [None; HISTORY],
+            history_next: 0,
+            feed_mm: 0.0,
+            blocks: 0,
+            last: Mark::default(),
+        }
+    }
+
+    /// Forgets everything and stands at `position`.
+    pub fn reset(&mut self, position: Point) {
+        self.queue.clear();
+        self.queued_mm = 0.0;
+        self.accel_min = f64::INFINITY;
+        self.current = None;
+        self.dwell_s = 0.0;
+        self.pace = Pace::Plan;
+        self.feed_override = true;
+        self.primed = false;
+        self.position = position;
+        self.history = [None; HISTORY];
+        self.feed_mm = 0.0;
+        self.blocks = 0;
+        self.last = Mark::default();
+    }
+
+    /// Drops what is left of a program; the place and the figures stay.
+    pub fn halt(&mut self) {
+        self.queue.clear();
+        self.queued_mm = 0.0;
+        self.current = None;
+        self.dwell_s = 0.0;
+    }
+
+    /// Takes what the look-ahead has released for `run`.
+    pub fn fill(&mut self, ring: &mut Rx<Planned>, run: u32) {
+        for _ in 0..FILL.min(QUEUE - self.queue.len()) {
+            let Some(step) = ring.pop() else { return };
+            if step.run == run {
+                self.accept(step);
+            }
+        }
+    }
+
+    fn accept(&mut self, step: Planned) {
+        if let Action::Move(segment) = &step.action {
+            self.queued_mm += segment.path.length;
+            self.accel_min = self.accel_min.min(segment.accel);
+        }
+        self.queue.push_back(step);
+    }
+
+    /// Position now.
+    pub fn position(&self) -> Point {
+        self.position
+    }
+
+    /// Path speed now, mm/s.
+    pub fn speed(&self) -> f64 {
+        match (self.pace, &self.current) {
+            (_, None) => 0.0,
+            (Pace::Plan, Some(c)) => c.segment.profile.v(c.tau),
+            (Pace::Free(w), Some(_)) => w,
+        }
+    }
+
+    /// True if the path stands still and would not move on this demand.
+    pub fn is_held(&self) -> bool {
+        self.current.is_none() || self.pace == Pace::Free(0.0)
+    }
+
+    /// Place in the part program: what was begun last.
+    pub fn mark(&self) -> Mark {
+        self.last
+    }
+
+    /// Rest of the current element in mm.
+    pub fn distance_to_go(&self) -> f64 {
+        self.current.as_ref().map_or(0.0, |c| (c.segment.path.length - c.s).max(0.0))
+    }
+
+    /// True while a dwell runs.
+    pub fn is_dwelling(&self) -> bool {
+        self.dwell_s > 0.0
+    }
+
+    /// Distance of a point from the path at and behind the current position, in mm; infinite without a path.
+    pub fn deviation(&self, p: &Point) -> f64 {
+        let current = self.current.as_ref().map(|c| &c.segment);
+        let newest_first = (1..=HISTORY).map_while(|k| self.history[(self.history_next + HISTORY - k) % HISTORY].as_ref());
+        let (mut nearest, mut behind) = (f64::INFINITY, 0.0);
+        for (n, segment) in current.into_iter().chain(newest_first).enumerate() {
+            nearest = nearest.min(segment.path.distance_to(p));
+            behind += segment.path.length;
+            if n >= BEHIND.1 && behind > BEHIND.0 {
+                break;
+            }
+        }
+        nearest
+    }
+
+    /// Moves on by `dt` seconds, or up to the next action that is not for the path.
+    pub fn advance(&mut self, dt: f64, demand: &Demand) -> Reached {
+        let starved = self.is_starved(dt);
+        let mut left = dt;
+        for _ in 0..4 * QUEUE {
+            if left <= 0.0 {
+                return self.stand(Reached::Time);
+            }
+            if self.dwell_s > 0.0 {
+                left = self.dwell(left, demand.hold);
+            } else if self.current.is_some() {
+                let cap = self.cap(demand, starved);
+                left = self.step(left, cap);
+            } else {
+                match self.next(demand) {
+                    Next::Started => {}
+                    Next::Nothing => return self.stand(Reached::Nothing),
+                    Next::Other(step) => return self.stand(Reached::Action(step, left)),
+                }
+            }
+        }
+        self.stand(Reached::Time)
+    }
+
+    fn stand(&mut self, reached: Reached) -> Reached {
+        if let Some(c) = &self.current {
+            self.position = c.segment.path.at(c.s);
+        }
+        reached
+    }
+
+    /// True if what is queued could be too short to stop in: the background has fallen behind.
+    fn is_starved(&self, dt: f64) -> bool {
+        let bounded = match self.queue.back() {
+            Some(Planned { action: Action::Move(s), .. }) => s.profile.v_out == 0.0,
+            Some(step) => step.action.is_stop(),
+            None => self.current.as_ref().is_none_or(|c| c.segment.profile.v_out == 0.0),
+        };
+        let v = self.speed() + self.accel_min.min(1e12) * dt;
+        !bounded
+            && self.queue.len() < QUEUE / 2
+            && self.distance_to_go() + self.queued_mm < v * v / (2.0 * self.accel_min) + v * dt
+    }
+
+    /// Highest path speed that is wanted now: the override is a share of the programmed speed.
+    fn cap(&self, demand: &Demand, starved: bool) -> f64 {
+        let (rapid, feed) = self.current.as_ref().map_or((false, 0.0), |c| (c.segment.rapid, c.segment.feed));
+        let share = if rapid {
+            demand.rapid
+        } else if self.feed_override {
+            demand.feed
+        } else {
+            1.0
+        };
+        match share.clamp(0.0, 1.0) {
+            _ if demand.hold || starved => 0.0,
+            // Without an override nothing is capped, not even by rounding.
+            1.0 => f64::INFINITY,
+            share => share * feed,
+        }
+    }
+
+    fn dwell(&mut self, left: f64, hold: bool) -> f64 {
+        if hold {
+            return 0.0;
+        }
+        let used = left.min(self.dwell_s);
+        self.dwell_s -= used;
+        left - used
+    }
+
+    fn next(&mut self, demand: &Demand) -> Next {
+        if !self.primed && self.queue.len() < PRIMED && !self.queue.iter().any(|s| s.action.is_stop()) {
+            return Next::Nothing;
+        }
+        self.primed = true;
+        let Some(step) = self.queue.front().copied() else { return Next::Nothing };
+        if demand.hold && self.speed_in(&step) == 0.0 {
+            return Next::Nothing;
+        }
+        self.count(step.mark);
+        match step.action {
+            Action::Move(segment) => {
+                self.queued_mm -= segment.path.length;
+                self.start(segment);
+            }
+            Action::Dwell(seconds) => self.dwell_s = seconds,
+            Action::FeedOverride(on) => self.feed_override = on,
+            _ => {
+                self.queue.pop_front();
+                return Next::Other(step);
+            }
+        }
+        self.queue.pop_front();
+        Next::Started
+    }
+
+    /// Speed at which the path enters a step. What is not a move goes along with the moves round it.
+    fn speed_in(&self, step: &Planned) -> f64 {
+        match (&step.action, self.pace) {
+            (Action::Move(segment), _) => segment.profile.v_in,
+            (action, _) if action.is_stop() => 0.0,
+            (_, Pace::Free(w)) => w,
+            (_, Pace::Plan) => self.history_v_out(),
+        }
+    }
+
+    /// Planned speed at the end of the element before.
+    fn history_v_out(&self) -> f64 {
+        let last = (self.history_next + HISTORY - 1) % HISTORY;
+        self.history[last].as_ref().map_or(0.0, |s| s.profile.v_out)
+    }
+
+    fn count(&mut self, mark: Mark) {
+        if mark.block != self.last.block && mark.block != 0 {
+            self.blocks += 1;
+        }
+        self.last = mark;
+    }
+
+    fn start(&mut self, segment: Segment) {
+        self.current = Some(Current { segment, tau: 0.0, s: 0.0 });
+        if let Pace::Free(w) = &mut self.pace {
+            *w = w.min(segment.profile.v_in);
+        }
+        if segment.profile.v_in == 0.0 {
+            self.pace = Pace::Plan;
+        }
+    }
+
+    fn finish(&mut self) {
+        if let Some(c) = self.current.take() {
+            self.position = c.segment.path.end;
+            if !c.segment.rapid {
+                self.feed_mm += c.segment.path.length;
+            }
+            self.history[self.history_next] = Some(c.segment);
+            self.history_next = (self.history_next + 1) % HISTORY;
+        }
+    }
+
+    /// Uses up to `left` seconds on the current element, not above `cap` mm/s; returns what is left.
+    fn step(&mut self, left: f64, cap: f64) -> f64 {
+        match self.pace {
+            Pace::Plan => self.on_plan(left, cap),
+            Pace::Free(w) => self.off_plan(left, w, cap),
+        }
+    }
+
+    /// Along the plan until it has a speed above the cap. Where it brakes it brakes as hard as a cap could ask for.
+    fn on_plan(&mut self, left: f64, cap: f64) -> f64 {
+        let Some(c) = &mut self.current else { return left };
+        let p = &c.segment.profile;
+        let mut time = f64::INFINITY;
+        if p.v_peak > cap && c.tau < p.t_acc + p.t_const {
+            let v = p.v(c.tau);
+            time = if c.tau < p.t_acc && v < cap { (cap - v) / p.a } else { 0.0 };
+        }
+        if time < left {
+            let v = p.v(c.tau);
+            c.tau += time;
+            c.s = p.s(c.tau);
+            self.pace = Pace::Free(if time > 0.0 { cap } else { v });
+            return left - time;
+        }
+        let over = c.tau + left - p.duration();
+        if over < 0.0 {
+            c.tau += left;
+            c.s = p.s(c.tau);
+            return 0.0;
+        }
+        self.finish();
+        over
+    }
+
+    /// Below the plan at path speed `w`, towards the cap with the acceleration of the element, until the plan is met again.
+    fn off_plan(&mut self, left: f64, w: f64, cap: f64) -> f64 {
+        let Some(c) = &mut self.current else { return left };
+        if w == 0.0 && cap == 0.0 {
+            return 0.0;
+        }
+        let phase = c.segment.profile.phase(c.s);
+        let a = if w < cap {
+            c.segment.accel
+        } else if w > cap {
+            -c.segment.accel
+        } else {
+            0.0
+        };
+        if a >= phase.a && w <= cap && meets(w * w, phase.v2(c.s)) {
+            self.back_to_plan();
+            return left;
+        }
+        let ramp = Ramp::new(w, a, cap, c.s, &phase);
+        let time = ramp.time(w);
+        if time > left {
+            c.s += left * (w + 0.5 * a * left);
+            self.pace = Pace::Free((w + a * left).max(0.0));
+            return 0.0;
+        }
+        c.s = if ramp.to_phase_end { phase.end } else { c.s + ramp.length };
+        self.pace = Pace::Free(ramp.v_end);
+        if c.s >= c.segment.path.length - END_MM {
+            self.finish();
+        }
+        left - time
+    }
+
+    fn back_to_plan(&mut self) {
+        if let Some(c) = &mut self.current {
+            c.tau = c.segment.profile.time_at(c.s);
+            self.pace = Pace::Plan;
+        }
+    }
+}
+
+/// Length below which the end of an element is reached: rounding of the ramp.
+const END_MM: f64 = 1e-12;
+
+#[allow(clippy::large_enum_variant)] // as above
+enum Next {
+    Started,
+    Nothing,
+    Other(Planned),
+}

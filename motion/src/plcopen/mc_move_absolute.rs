@@ -1,0 +1,44 @@
+//! MC_MoveAbsolute: moves an axis to a position (PLCopen part 1, §3.5).
+//! Runs: cyclic.
+
+use crate::axis::orders::Order;
+use crate::natives::rules::{self, Action};
+use crate::natives::{Core, Frame};
+use crate::{block, execute_pins};
+use takt_base::Code;
+
+block! {
+    /// Moves the axis to Position at Velocity at most. Acceleration and Deceleration 0: the limit of the axis.
+    "MC_MoveAbsolute", call;
+    InOut Axis: "AXIS_REF";
+    Input Execute: "BOOL";
+    Input ContinuousUpdate: "BOOL";
+    Input Position: "LREAL";
+    Input Velocity: "LREAL";
+    Input Acceleration: "LREAL";
+    Input Deceleration: "LREAL";
+    Input Jerk: "LREAL";
+    Input Direction: "MC_DIRECTION" = "mcShortestWay";
+    Input BufferMode: "MC_BUFFER_MODE";
+    Output Done: "BOOL";
+    Output Busy: "BOOL";
+    Output Active: "BOOL";
+    Output CommandAborted: "BOOL";
+    Output Error: "BOOL";
+    Output ErrorID: "WORD";
+    Private Previous: "BOOL";
+    Private Command: "UDINT";
+    Private Reference: "UINT";
+}
+
+fn call(core: &mut Core, f: &mut Frame) {
+    let number = f.reference(P::Axis);
+    let target = rules::axis(core, number);
+    rules::execute(core, f, &execute_pins!(P motion), number, target, &Action { start, poll: super::poll });
+}
+
+fn start(core: &mut Core, f: &mut Frame, axis: usize) -> Result<u32, Code> {
+    super::supported(f.i16(P::BufferMode), f.lreal(P::Jerk), f.bool(P::ContinuousUpdate))?;
+    let order = Order::Absolute(f.lreal(P::Position), super::wanted(f, P::Velocity, P::Acceleration, P::Deceleration));
+    super::order(core, axis, order, f.i16(P::BufferMode))
+}

@@ -1,0 +1,476 @@
+//! Reads canonical commands for the machine: program coordinates and units become machine millimetres, codes become auxiliary
+//! functions.
+//! Runs: background. From: CM-25..CM-28, CM-40..CM-43, CM-60..CM-63, sync classes of M codes as in LinuxCNC and scenario S39.
+
+use crate::canon::{Arc, Canon, MotionMode, Plane, Position, ProgramEnd, Step, Units};
+use crate::geometry::{AXES, Path, Point};
+use crate::lookahead::Move;
+use crate::segment::{Action, AuxCodes, Mark};
+use takt_base::Code;
+use takt_base::units::MM_PER_INCH;
+
+/// What the machine can do, as far as a part program can ask for too much.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Work {
+    /// Axis letters that exist.
+    pub exists: [bool; AXES],
+    /// Smallest machine position.
+    pub min: Point,
+    /// Largest machine position.
+    pub max: Point,
+    /// M, S and T codes wait for the PLC program.
+    pub handshake: bool,
+}
+
+impl Default for Work {
+    fn default() -> Self {
+        Self { exists: [true; AXES], min: [f64::NEG_INFINITY; AXES], max: [f64::INFINITY; AXES], handshake: false }
+    }
+}
+
+/// One item for the planner.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum Item {
+    /// Something that moves.
+    Move(Move),
+    /// Anything else.
+    Action(Action),
+}
+
+/// A command that this machine can't execute.
+#[derive(Clone, PartialEq, Debug)]
+pub struct RunError {
+    /// Which rule.
+    pub code: Code,
+    /// The sentence.
+    pub text: String,
+}
+
+impl RunError {
+    /// Which rule.
+    pub fn code(&self) -> Code {
+        self.code
+    }
+}
+
+impl std::fmt::Display for RunError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.text)
+    }
+}
+
+impl std::error::Error for RunError {}
+
+/// The state that canonical commands build on.
+#[derive(Clone, Debug)]
+pub struct RunReader {
+    work: Work,
+    /// Machine position of the controlled point: mm, degrees.
+    position: Point,
+    origin: Point,
+    tool_length: f64,
+    unit_mm: f64,
+    plane: Plane,
+    mode: MotionMode,
+    feed_mm_s: f64,
+    traverse_mm_s: f64,
+    /// Codes of the block at hand.
+    aux: Option<(Mark, AuxCodes)>,
+}
+
+/// Where the items go.
+type Emit<'a> = &'a mut dyn FnMut(Mark, Item);
+
+impl RunReader {
+    /// A reader for a program that starts at machine position `start`.
+    pub fn new(work: Work, start: Point) -> Self {
+        Self {
+            work,
+            position: start,
+            origin: [0.0; AXES],
+            tool_length: 0.0,
+            unit_mm: 1.0,
+            plane: Plane::Xy,
+            mode: MotionMode::ExactPath,
+            feed_mm_s: 0.0,
+            traverse_mm_s: f64::INFINITY,
+            aux: None,
+        }
+    }
+
+    /// Machine position after everything read so far.
+    pub fn position(&self) -> Point {
+        self.position
+    }
+
+    /// Reads one command; what it amounts to goes to `emit`.
+    pub fn read(&mut self, step: &Step, emit: Emit) -> Result<(), RunError> {
+        let mark = Mark { block: step.block, line: step.line, n: step.n.unwrap_or(0) };
+        if self.aux.is_some_and(|(m, _)| m.block != mark.block) {
+            self.flush_aux(emit);
+        }
+        match &step.command {
+            Canon::StraightTraverse(p) => self.straight(mark, p, true, emit),
+            Canon::StraightFeed(p) => self.straight(mark, p, false, emit),
+            Canon::ArcFeed(arc) => self.arc(mark, arc, emit),
+            Canon::Dwell(s) => self.dwell(mark, *s, emit),
+            Canon::Stop => self.action(mark, Action::Dwell(0.0), emit),
+            Canon::ProgramStop => self.action(mark, Action::ProgramStop { optional: false }, emit),
+            Canon::OptionalProgramStop => self.action(mark, Action::ProgramStop { optional: true }, emit),
+            Canon::ProgramEnd(end) => self.end(mark, *end, emit),
+            Canon::EnableFeedOverride => self.action(mark, Action::FeedOverride(true), emit),
+            Canon::DisableFeedOverride => self.action(mark, Action::FeedOverride(false), emit),
+            Canon::StartSpeedFeedSynch => Err(unsupported("motion in step with the spindle")),
+            command if self.set_state(command)? => Ok(()),
+            command => self.auxiliary(mark, command, emit),
+        }
+    }
+
+    /// The end of the commands: codes that still wait for company go out.
+    pub fn finish(&mut self, emit: Emit) {
+        self.flush_aux(emit);
+    }
+
+    fn set_state(&mut self, command: &Canon) -> Result<bool, RunError> {
+        match command {
+            Canon::SelectPlane(plane) => self.plane = *plane,
+            Canon::UseLengthUnits(units) => self.unit_mm = unit_mm(*units),
+            Canon::SetOriginOffsets(p) => self.origin = self.scaled(p),
+            Canon::UseToolLengthOffset(length) => self.tool_length = length * self.unit_mm,
+            Canon::SetFeedRate(rate) => self.feed_mm_s = rate * self.unit_mm / 60.0,
+            Canon::SetTraverseRate(rate) if *rate > 0.0 => self.traverse_mm_s = rate * self.unit_mm / 60.0,
+            Canon::SetMotionControlMode(mode) => self.mode = *mode,
+            Canon::SetFeedReference(crate::canon::FeedReference::Workpiece) => {
+                return Err(unsupported("feed relative to the work piece"));
+            }
+            Canon::InitCanon
+            | Canon::EndCanon
+            | Canon::SetTraverseRate(_)
+            | Canon::SetFeedReference(_)
+            | Canon::StopSpeedFeedSynch
+            | Canon::Comment(_)
+            | Canon::Message(_)
+            | Canon::DisableSpeedOverride
+            | Canon::EnableSpeedOverride => {}
+            _ => return Ok(false),
+        }
+        Ok(true)
+    }
+
+    fn scaled(&self, p: &Position) -> Point {
+        let u = self.unit_mm;
+        [p.x * u, p.y * u, p.z * u, p.a, p.b, p.c]
+    }
+
+    /// Program to machine coordinates (CM-19, CM-26).
+    fn machine(&self, p: &Position) -> Point {
+        let mut point = self.scaled(p);
+        for (c, o) in point.iter_mut().zip(self.origin) {
+            *c += o;
+        }
+        point[2] += self.tool_length;
+        point
+    }
+
+    fn straight(&mut self, mark: Mark, to: &Position, rapid: bool, emit: Emit) -> Result<(), RunError> {
+        let path = Path::line(self.position, self.machine(to));
+        self.go(mark, path, rapid, emit)
+    }
+
+    fn arc(&mut self, mark: Mark, arc: &Arc, emit: Emit) -> Result<(), RunError> {
+        let (first, second, third) = match self.plane {
+            Plane::Xy => (0, 1, 2),
+            Plane::Yz => (1, 2, 0),
+            Plane::Xz => (2, 0, 1),
+        };
+        let shift = |i: usize, v: f64| v * self.unit_mm + self.origin[i] + if i == 2 { self.tool_length } else { 0.0 };
+        let mut end = self.position;
+        end[first] = shift(first, arc.first_end);
+        end[second] = shift(second, arc.second_end);
+        end[third] = shift(third, arc.axis_end_point);
+        for (i, v) in [(3, arc.a), (4, arc.b), (5, arc.c)] {
+            end[i] = v + self.origin[i];
+        }
+        let centre = [shift(first, arc.first_axis), shift(second, arc.second_axis)];
+        check_radius(&self.position, &end, first, second, centre, arc.rotation)?;
+        self.go(mark, Path::arc(self.position, end, first, second, centre, arc.rotation), false, emit)
+    }
+
+    fn go(&mut self, mark: Mark, path: Path, rapid: bool, emit: Emit) -> Result<(), RunError> {
+        self.check(&path)?;
+        let feed = if rapid { self.traverse_mm_s } else { self.feed_mm_s };
+        if (feed.is_nan() || feed <= 0.0) && path.length > 0.0 {
+            return Err(RunError { code: Code::NoFeed, text: Code::NoFeed.title().to_owned() });
+        }
+        self.flush_aux(emit);
+        self.position = path.end;
+        if path.length > 0.0 {
+            let exact_stop = self.mode == MotionMode::ExactStop;
+            emit(mark, Item::Move(Move { path, feed, rapid, exact_stop }));
+        }
+        Ok(())
+    }
+
+    fn check(&self, path: &Path) -> Result<(), RunError> {
+        if !path.length.is_finite() || !path.end.iter().all(|c| c.abs() <= 1e9) {
+            return Err(RunError { code: Code::OutsideLimits, text: "the move is longer than any machine".to_owned() });
+        }
+        for i in 0..AXES {
+            let (low, high) = path.bounds(i);
+            let letter = ["X", "Y", "Z", "A", "B", "C"][i];
+            if low == high {
+                continue;
+            }
+            if !self.work.exists[i] {
+                let text = format!("the program moves {letter}, but the channel has no such axis");
+                return Err(RunError { code: Code::UnknownReference, text });
+            }
+            if low < self.work.min[i] - 1e-9 || high > self.work.max[i] + 1e-9 {
+                let text = format!("the move takes {letter} to {}", if high > self.work.max[i] { high } else { low });
+                return Err(RunError { code: Code::OutsideLimits, text });
+            }
+        }
+        Ok(())
+    }
+
+    fn action(&mut self, mark: Mark, action: Action, emit: Emit) -> Result<(), RunError> {
+        self.flush_aux(emit);
+        emit(mark, Item::Action(action));
+        Ok(())
+    }
+
+    fn dwell(&mut self, mark: Mark, seconds: f64, emit: Emit) -> Result<(), RunError> {
+        if !(0.0..=1e6).contains(&seconds) {
+            return Err(RunError { code: Code::BadValue, text: format!("a dwell of {seconds} s is not possible") });
+        }
+        self.action(mark, Action::Dwell(seconds), emit)
+    }
+
+    /// The spindle and coolant stops that an end of program implies are shown, but nobody has to confirm them.
+    fn end(&mut self, mark: Mark, end: ProgramEnd, emit: Emit) -> Result<(), RunError> {
+        if let Some((_, codes)) = &mut self.aux {
+            codes.wait &= !codes.m[..usize::from(codes.m_count)].iter().all(|m| matches!(m, 5 | 9));
+        }
+        let m = match end {
+            ProgramEnd::M2 => 2,
+            ProgramEnd::M30 => 30,
+            ProgramEnd::EndOfFile => 0,
+        };
+        self.action(mark, Action::End { m }, emit)
+    }
+
+    fn auxiliary(&mut self, mark: Mark, command: &Canon, emit: Emit) -> Result<(), RunError> {
+        match command {
+            Canon::SetSpindleSpeed(s) => self.add(mark, true, emit, |c| c.s = Some(*s)),
+            Canon::SelectTool(t) => self.add(mark, false, emit, |c| c.t = Some(*t)),
+            Canon::UserMCode { code, p, q } => {
+                let words = [p.unwrap_or(0.0), q.unwrap_or(0.0)];
+                self.add_m(mark, u16::try_from(*code).unwrap_or(u16::MAX), words, emit);
+            }
+            Canon::OrientSpindle(angle, _) => self.add_m(mark, 19, [*angle, 0.0], emit),
+            other => {
+                if let Some(code) = m_code(other) {
+                    self.add_m(mark, code, [0.0; 2], emit);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn add_m(&mut self, mark: Mark, code: u16, words: [f64; 2], emit: Emit) {
+        if mark.block == 0 || self.aux.is_some_and(|(_, c)| c.m[..usize::from(c.m_count)].contains(&code)) {
+            return;
+        }
+        if self.aux.is_some_and(|(_, c)| usize::from(c.m_count) == c.m.len()) {
+            self.flush_aux(emit);
+        }
+        self.add(mark, !matches!(code, 7..=9), emit, |codes| {
+            let i = usize::from(codes.m_count);
+            codes.m[i] = code;
+            codes.m_param[i] = words;
+            codes.m_count += 1;
+        });
+    }
+
+    /// Codes of a block go out together unless their sync classes differ.
+    fn add(&mut self, mark: Mark, wait: bool, emit: Emit, put: impl FnOnce(&mut AuxCodes)) {
+        let wait = wait && self.work.handshake;
+        if self.aux.is_some_and(|(_, c)| c.wait != wait) {
+            self.flush_aux(emit);
+        }
+        let (_, codes) = self.aux.get_or_insert((mark, AuxCodes { wait, ..AuxCodes::default() }));
+        put(codes);
+    }
+
+    fn flush_aux(&mut self, emit: Emit) {
+        if let Some((mark, codes)) = self.aux.take() {
+            emit(mark, Item::Action(Action::Aux(codes)));
+        }
+    }
+}
+
+/// The M code that a canonical command came from.
+fn m_code(command: &Canon) -> Option<u16> {
+    Some(match command {
+        Canon::StartSpindleClockwise => 3,
+        Canon::StartSpindleCounterclockwise => 4,
+        Canon::StopSpindleTurning => 5,
+        Canon::ChangeTool(_) => 6,
+        Canon::MistOn => 7,
+        Canon::FloodOn => 8,
+        Canon::MistOff | Canon::FloodOff => 9,
+        Canon::PalletShuttle => 60,
+        _ => return None,
+    })
+}
+
+fn unit_mm(units: Units) -> f64 {
+    match units {
+        Units::Inches => MM_PER_INCH,
+        Units::Mm => 1.0,
+        Units::Cm => 10.0,
+    }
+}
+
+/// CM-62, CM-63. The interpreter knows the tolerance of its dialect; this keeps wild arcs out whoever made the commands.
+fn check_radius(start: &Point, end: &Point, i: usize, j: usize, centre: [f64; 2], rotation: i32) -> Result<(), RunError> {
+    let radius = |p: &Point| libm::hypot(p[i] - centre[0], p[j] - centre[1]);
+    let (r0, r1) = (radius(start), radius(end));
+    let moved = (end[i] - start[i]).abs() + (end[j] - start[j]).abs() > 1e-9;
+    if (r0 - r1).abs() > 0.05 + 0.005 * r0 || (rotation == 0 && moved) || r0.is_nan() || r0 <= 0.0 {
+        let text = format!("the arc starts at radius {r0:.4} and ends at radius {r1:.4} mm");
+        return Err(RunError { code: Code::RadiusMismatch, text });
+    }
+    Ok(())
+}
+
+fn unsupported(what: &str) -> RunError {
+    RunError { code: Code::UnknownCode, text: format!("{what} is not supported") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(work: Work, commands: &[(u32, Canon)]) -> Result<Vec<Item>, RunError> {
+        let mut reader = RunReader::new(work, [0.0; 6]);
+        let mut items = Vec::new();
+        for (block, command) in commands {
+            let step = Step { block: *block, line: *block, n: None, command: command.clone() };
+            reader.read(&step, &mut |_, item| items.push(item))?;
+        }
+        reader.finish(&mut |_, item| items.push(item));
+        Ok(items)
+    }
+
+    fn at(x: f64, y: f64, z: f64) -> Position {
+        Position { x, y, z, ..Position::default() }
+    }
+
+    fn end(item: &Item) -> Point {
+        let Item::Move(m) = item else { panic!("{item:?} is no move") };
+        m.path.end
+    }
+
+    /// CM-T4, CM-T5, CM-T6: offsets and units renumber; nothing moves.
+    #[test]
+    fn units_and_offsets() {
+        let items = read(
+            Work::default(),
+            &[
+                (1, Canon::StraightTraverse(at(100., 50., 0.))),
+                (2, Canon::SetOriginOffsets(at(10., 20., 0.))),
+                (3, Canon::StraightTraverse(at(0., 0., 5.))),
+                (4, Canon::UseLengthUnits(Units::Inches)),
+                (4, Canon::UseToolLengthOffset(1.0)),
+                (5, Canon::StraightTraverse(at(1., 0., 0.))),
+            ],
+        )
+        .unwrap();
+        assert_eq!(end(&items[1])[..3], [10., 20., 5.]);
+        assert_eq!(end(&items[2])[..3], [35.4, 20., 25.4]);
+    }
+
+    /// CM-T9: in the plane XZ the first axis is Z, the second X.
+    #[test]
+    fn plane_xz() {
+        let arc = Arc { first_end: 0., second_end: 1., first_axis: 0., second_axis: 0., rotation: 1, ..Arc0::ARC };
+        let items = read(
+            Work::default(),
+            &[
+                (1, Canon::StraightTraverse(at(0., 0., 1.))),
+                (2, Canon::SelectPlane(Plane::Xz)),
+                (2, Canon::SetFeedRate(60.)),
+                (2, Canon::ArcFeed(arc)),
+            ],
+        )
+        .unwrap();
+        let Item::Move(m) = items[1] else { panic!() };
+        assert!((m.path.length - std::f64::consts::FRAC_PI_2).abs() < 1e-12);
+        assert_eq!(m.path.end[..3], [1., 0., 0.]);
+        assert_eq!(m.feed, 1.0);
+    }
+
+    struct Arc0;
+    impl Arc0 {
+        const ARC: Arc = Arc {
+            first_end: 0.,
+            second_end: 0.,
+            first_axis: 0.,
+            second_axis: 0.,
+            rotation: 0,
+            axis_end_point: 0.,
+            a: 0.,
+            b: 0.,
+            c: 0.,
+        };
+    }
+
+    /// Scenario S39: codes of a block share a strobe, unless one waits and the other does not.
+    #[test]
+    fn codes_of_a_block_go_together() {
+        let work = Work { handshake: true, ..Work::default() };
+        let items = read(
+            work,
+            &[
+                (1, Canon::SetSpindleSpeed(500.)),
+                (1, Canon::StartSpindleClockwise),
+                (1, Canon::FloodOn),
+                (2, Canon::MistOff),
+                (2, Canon::FloodOff),
+                (3, Canon::StopSpindleTurning),
+                (3, Canon::ProgramEnd(ProgramEnd::M30)),
+            ],
+        )
+        .unwrap();
+        let aux: Vec<_> = items
+            .iter()
+            .filter_map(|i| if let Item::Action(Action::Aux(c)) = i { Some((c.m, c.m_count, c.s, c.wait)) } else { None })
+            .collect();
+        assert_eq!(
+            aux,
+            [
+                ([3, 0, 0, 0], 1, Some(500.), true),
+                ([8, 0, 0, 0], 1, None, false),
+                ([9, 0, 0, 0], 1, None, false),
+                ([5, 0, 0, 0], 1, None, false)
+            ]
+        );
+    }
+
+    #[test]
+    fn what_the_machine_cannot_do() {
+        let mut work = Work::default();
+        work.exists[5] = false;
+        work.max[0] = 100.0;
+        let code = |commands: &[(u32, Canon)]| read(work, commands).unwrap_err().code;
+        let rotary = Position { c: 1.0, ..Position::default() };
+        assert_eq!(code(&[(1, Canon::StraightTraverse(rotary))]), Code::UnknownReference);
+        assert_eq!(code(&[(1, Canon::StraightTraverse(at(100.1, 0., 0.)))]), Code::OutsideLimits);
+        assert_eq!(code(&[(1, Canon::StraightFeed(at(1., 0., 0.)))]), Code::NoFeed);
+        assert_eq!(code(&[(1, Canon::StraightTraverse(at(f64::NAN, 0., 0.)))]), Code::OutsideLimits);
+        // CM-T10
+        let arc = Arc { first_end: 1., first_axis: 5., rotation: 0, ..Arc0::ARC };
+        assert_eq!(code(&[(1, Canon::SetFeedRate(1.)), (1, Canon::ArcFeed(arc))]), Code::RadiusMismatch);
+    }
+}

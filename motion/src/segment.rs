@@ -1,0 +1,137 @@
+//! What passes the ring from look-ahead to execution.
+//! Runs: both. Everything is `Copy` and of fixed size: the cyclic side neither allocates nor frees.
+
+use crate::geometry::{Path, Point};
+use crate::profile::Profile;
+use crate::pulse::PulseMove;
+use takt_base::Code;
+
+/// Where in the part program something comes from.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub struct Mark {
+    /// Block in execution order, from 1.
+    pub block: u32,
+    /// Source line, from 1.
+    pub line: u32,
+    /// N word; 0 if there is none.
+    pub n: u32,
+}
+
+/// A planned path element.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Segment {
+    /// Geometry.
+    pub path: Path,
+    /// Speed along it.
+    pub profile: Profile,
+    /// Path acceleration that all axes can follow everywhere on it, mm/s2.
+    pub accel: f64,
+    /// Programmed speed in mm/s, which the plan may not reach; that of a positioning move is its limit.
+    pub feed: f64,
+    /// Positioning move: the rapid override counts.
+    pub rapid: bool,
+}
+
+/// M, S and T codes of one block that are shown together (scenario S39).
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
+pub struct AuxCodes {
+    /// M codes.
+    pub m: [u16; 4],
+    /// How many of them.
+    pub m_count: u8,
+    /// P and Q words of each M code.
+    pub m_param: [[f64; 2]; 4],
+    /// Spindle speed.
+    pub s: Option<f64>,
+    /// Tool number.
+    pub t: Option<u32>,
+    /// Wait for the PLC program before going on.
+    pub wait: bool,
+}
+
+/// A program error that stops the channel.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct ErrorNote {
+    /// What is wrong.
+    pub code: Code,
+    /// Source line, from 1; 0 if it has none.
+    pub line: u32,
+    /// Column, from 1; 0 if it has none.
+    pub column: u32,
+    /// Message, UTF-8, padded with zeros.
+    pub text: [u8; ErrorNote::TEXT],
+}
+
+impl ErrorNote {
+    /// Bytes of message.
+    pub const TEXT: usize = 120;
+
+    /// A note; a long text is cut at a character border.
+    pub fn new(code: Code, line: u32, column: u32, text: &str) -> Self {
+        let mut cut = text.len().min(Self::TEXT);
+        while !text.is_char_boundary(cut) {
+            cut -= 1;
+        }
+        let mut bytes = [0; Self::TEXT];
+        bytes[..cut].copy_from_slice(&text.as_bytes()[..cut]);
+        Self { code, line, column, text: bytes }
+    }
+
+    /// The message.
+    pub fn message(&self) -> &str {
+        let end = self.text.iter().position(|&b| b == 0).unwrap_or(Self::TEXT);
+        std::str::from_utf8(&self.text[..end]).unwrap_or("")
+    }
+}
+
+/// One step of a planned program.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum Action {
+    /// Move with planned speed.
+    Move(Segment),
+    /// Reference pulses.
+    Pulse(PulseMove),
+    /// Axes still for this many seconds.
+    Dwell(f64),
+    /// Show codes; with `wait` at rest.
+    Aux(AuxCodes),
+    /// Obey the feed override (M48) or not (M49).
+    FeedOverride(bool),
+    /// M0 or, with `optional`, M1.
+    ProgramStop {
+        /// M1.
+        optional: bool,
+    },
+    /// End of program; the M code, 0 at the end of the file.
+    End {
+        /// 0, 2 or 30.
+        m: u16,
+    },
+    /// A wrong block: everything before it has been executed.
+    Fault(ErrorNote),
+}
+
+impl Action {
+    /// True if the path is at rest when this begins.
+    pub fn is_stop(&self) -> bool {
+        match self {
+            Action::Aux(codes) => codes.wait,
+            Action::Dwell(_) | Action::ProgramStop { .. } | Action::End { .. } | Action::Fault(_) => true,
+            Action::Move(_) | Action::Pulse(_) | Action::FeedOverride(_) => false,
+        }
+    }
+}
+
+/// An action and its place.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Planned {
+    /// Which run of the channel it belongs to; left-overs of an aborted run are dropped.
+    pub run: u32,
+    /// Place in the part program.
+    pub mark: Mark,
+    /// What to do.
+    pub action: Action,
+}
+
+/// A point that nothing has set.
+pub const ORIGIN: Point = [0.0; 6];

@@ -1,0 +1,194 @@
+//! Every N code, its place, and that a wrong block gives out nothing.
+
+use std::collections::BTreeSet;
+use takt_base::units::{Mm, MmPerMin};
+use takt_base::{Code, Severity, SourceId, Sources};
+use takt_motion::canon::{Position, Step};
+use takt_motion::ngc::{Interpreter, Options, Style, Travel, check};
+
+/// Defaults, with a travel of -1000..1000 on all axes, a grid of 0.001 mm and a largest feed of 10000 mm/min.
+fn options() -> Options {
+    let all = |v| Position { x: v, y: v, z: v, a: v, b: v, c: v };
+    let travel = Travel { min: all(-1000.0), max: all(1000.0) };
+    Options { travel: Some(travel), grid: Some(Mm(0.001)), feed_max: Some(MmPerMin(10_000.0)), ..Options::default() }
+}
+
+/// `CODE line:column` of each diagnostic.
+fn shown(text: &str) -> String {
+    let mut sources = Sources::new();
+    let id = sources.add("a.ngc", text);
+    let at = |d: &takt_base::Diag| {
+        let place = sources.line_col(id, d.span.start);
+        assert!(d.help.is_some(), "{} has no help", d.code.text());
+        assert!(!takt_base::diag::render(d, &sources).is_empty());
+        format!("{} {}:{}", d.code.text(), place.line, place.column)
+    };
+    check(id, text, options()).iter().map(at).collect::<Vec<_>>().join(", ")
+}
+
+const CASES: &[(&str, &str)] = &[
+    ("G1 X1 F100 $", "N0001 1:12"),
+    ("G0 X1\n%%", "N0001 2:1"),
+    ("G0 X1 )", "N0001 1:7"),
+    ("G0 X", "N0002 1:4"),
+    ("G0 X1 N5", "N0002 1:7"),
+    ("N-5 G0", "N0002 1:1"),
+    ("G0 X9999999999999", "N0002 1:4"),
+    ("G5.1 X1 Y1", "N0003 1:1"),
+    ("G1.05", "N0003 1:1"),
+    ("G-1", "N0003 1:1"),
+    ("G41 D1", "N0003 1:1"),
+    ("G81 Z-5 R1", "N0003 1:1"),
+    ("M98 P100", "N0003 1:1"),
+    ("M99", "N0003 1:1"),
+    ("M200", "N0003 1:1"),
+    ("M3.5", "N0003 1:1"),
+    ("G0 G1 X1 F100", "N0004 1:4"),
+    ("G17 G18", "N0004 1:5"),
+    ("G54 G55", "N0004 1:5"),
+    ("M3 M4", "N0004 1:4"),
+    ("M7 M8", "N0004 1:4"),
+    ("M2 M30", "N0004 1:4"),
+    ("M110 M111", "N0004 1:6"),
+    ("G4 P1 G64", "N0004 1:4"),
+    ("G4 P1 M110", "N0004 1:4"),
+    ("G0 X1 Y2 X3", "N0005 1:10"),
+    ("F1 F2", "N0005 1:4"),
+    ("G4", "N0006 1:1"),
+    ("F100\nG2 X10", "N0006 2:1"),
+    ("F100 G90.1\nG2 X10 I5", "N0006 2:1"),
+    ("F100 G2 X20 I5", "N0007 1:1"),
+    ("F100 G2 X20 R5", "N0007 1:13"),
+    ("F100 G2 X10 I0", "N0007 1:13"),
+    ("G1 X1\nX2\nX3", "N0008 1:1"),
+    ("F0 G2 X10 I5", "N0008 1:4"),
+    ("X1", "N0009 1:1"),
+    ("G0 X1\nG80\nX2", "N0009 3:1"),
+    ("G80 X2", "N0009 1:5"),
+    ("G0 X1 I5", "N0009 1:7"),
+    ("P1", "N0009 1:1"),
+    ("G0 U1", "N0009 1:4"),
+    ("G0 X1E2", "N0009 1:6"),
+    ("F100 G2 X10 I5 K1", "N0009 1:16"),
+    ("F100 G2 X10 I5 R5", "N0009 1:13"),
+    ("F-1", "N0010 1:1"),
+    ("S-1", "N0010 1:1"),
+    ("T1.5", "N0010 1:1"),
+    ("T-1", "N0010 1:1"),
+    ("G4 P-1", "N0010 1:4"),
+    ("G64 P-1", "N0010 1:5"),
+    ("F20000", "N0010 1:1"),
+    ("G20\nF400", "N0010 2:1"),
+    ("F100 G2 X10 I5 P0", "N0010 1:16"),
+    ("F100 G2 X10 I5 P1.5", "N0010 1:16"),
+    ("F100 G2 I5 R5 X0", "N0009 1:9"),
+    ("F100 G2 X0 R5", "N0010 1:12"),
+    ("G0 X1 (open", "N0011 1:7"),
+    ("G0 X1 (a (b))", "N0011 1:7"),
+    ("G0 X1001", "N0012 1:1"),
+    ("G0 X990\nG2 X990 J20 F100", "N0012 2:1"),
+    ("G0 C-1001", "N0012 1:1"),
+    ("G0 X1.0005", "N0013 1:1"),
+    ("G2 X0.001 I0.0005 F100", "N0013 1:1"),
+    ("#1=5", "N0014 1:1"),
+    ("G0 X#1", "N0014 1:4"),
+    ("G0 X[1+2]", "N0014 1:4"),
+    ("O100 SUB", "N0014 1:1"),
+    ("F100 G2 X20 R10", "N0015 1:13"),
+    ("F100 G3 X0.1 R-100", "N0013 1:1, N0015 1:14"),
+    // Several in a block, and in a file: all are found, each once.
+    ("G0 X1 X2 $\nG0 Y1 Y2\nM3 M4 F-2\nG9", "N0001 1:10, N0005 2:7, N0004 3:4, N0010 3:7, N0003 4:1"),
+    // What is right.
+    ("", ""),
+    ("%\nG21 G90 (setup)\nG0 X1 ; go\nM2\nG99 nothing reads this", ""),
+    ("G1 F100 X1\n(a block without words)\nN7\n/G0 X5", ""),
+    ("g1f1 0 0x-1. 5 y +.5", ""),
+];
+
+#[test]
+fn places_of_all_errors() {
+    for (text, want) in CASES {
+        let mut found: Vec<_> = shown(text).split(", ").map(str::to_owned).collect();
+        let mut wanted: Vec<_> = want.split(", ").map(str::to_owned).collect();
+        found.sort();
+        wanted.sort();
+        assert_eq!(found, wanted, "{text}");
+    }
+}
+
+#[test]
+fn every_n_code_is_provoked_and_has_a_page() {
+    let provoked: BTreeSet<&str> =
+        CASES.iter().flat_map(|(_, want)| want.split(", ")).filter_map(|w| w.split(' ').next()).collect();
+    for code in Code::ALL.iter().filter(|c| c.text().starts_with('N')) {
+        assert!(provoked.contains(code.text()), "{} is never provoked", code.text());
+        let page = code.page();
+        assert!(page.contains("```ngc") && page.lines().count() <= 15, "{} has no page", code.text());
+    }
+}
+
+/// The fenced example of each page provokes its code.
+#[test]
+fn pages_show_what_they_say() {
+    for code in Code::ALL.iter().filter(|c| c.text().starts_with('N')) {
+        let example = code.page().split("```ngc\n").nth(1).and_then(|p| p.split("```").next()).unwrap();
+        assert!(shown(example).contains(code.text()), "{}: {}", code.text(), shown(example));
+    }
+}
+
+/// A wrong block emits nothing, what stands before it is emitted, and nothing follows.
+#[test]
+fn wrong_block_emits_nothing() {
+    for (text, want) in CASES {
+        let error_line = |d: &takt_base::Diag| text[..d.span.start as usize].lines().count().max(1) as u32;
+        let first = check(SourceId(0), *text, options()).into_iter().find(|d| d.severity == Severity::Error);
+        let mut interpreter = Interpreter::new(SourceId(0), *text, options());
+        let steps: Vec<Step> = interpreter.by_ref().map_while(Result::ok).collect();
+        let Some(first) = first else {
+            assert!(
+                matches!(steps.last(), Some(s) if matches!(s.command, takt_motion::canon::Canon::ProgramEnd(_))),
+                "{text}: {want}"
+            );
+            continue;
+        };
+        let line = error_line(&first) + u32::from(text[..first.span.start as usize].ends_with('\n'));
+        assert!(steps.iter().all(|s| s.line < line), "{text}: {steps:?}");
+        assert!(interpreter.next().is_none());
+        let again = Interpreter::new(SourceId(0), *text, options()).find_map(Result::err);
+        assert_eq!(again.as_deref(), Some(&first), "{text}");
+    }
+}
+
+#[test]
+fn an_interpreter_can_go_to_another_thread() {
+    let interpreter = Interpreter::new(SourceId(0), "G0 X1", Options::default());
+    let steps = std::thread::spawn(move || interpreter.filter_map(Result::ok).count()).join().unwrap();
+    assert_eq!(steps, 5 + 2);
+}
+
+#[test]
+fn block_delete_is_an_option() {
+    let count = |skip_deleted| {
+        let options = Options { skip_deleted, style: Style::Ngc, ..Options::default() };
+        Interpreter::new(SourceId(0), "G0 X1\n / X2\nX3", options).map(Result::unwrap).last().unwrap().block
+    };
+    assert_eq!((count(false), count(true)), (3, 2));
+}
+
+#[test]
+fn modes_before_a_program() {
+    let options = |modes: &str| Options::default().with_modes(SourceId(0), modes);
+    assert!(options("G17 G20 G91 G90.1 G55 G64 G94 G1").is_ok());
+    for (modes, want) in [("G4 P1", Code::BadValue), ("M3", Code::BadValue), ("X1", Code::BadValue), ("$", Code::BadCharacter)] {
+        assert_eq!(options(modes).unwrap_err().code, want, "{modes}");
+    }
+}
+
+/// PC-03: at least 1000 blocks; here 50,000, with numbers up to the end.
+#[test]
+fn many_blocks() {
+    let text: String = (1..=50_000).map(|n| format!("N{n}G1X{}F100\n", n % 7)).collect();
+    let last =
+        Interpreter::new(SourceId(0), text, Options::default()).map(Result::unwrap).filter(|s| s.n.is_some()).last().unwrap();
+    assert_eq!((last.block, last.n, last.line), (50_000, Some(50_000), 50_000));
+}

@@ -1,0 +1,140 @@
+//! Any text is read without panic or hang; generated programs obey the rules that hold for all programs.
+
+mod common;
+
+use common::programs::{Random, program};
+use takt_base::{Severity, SourceId, Sources};
+use takt_motion::canon::{Canon, Position, Step};
+use takt_motion::ngc::{Interpreter, Options, Style, Travel, check};
+use takt_motion::stats::Stats;
+use takt_motion::{draw, print};
+
+const RUNS: usize = 100_000;
+
+fn options(random: &mut Random) -> Options {
+    let all = |v| Position { x: v, y: v, z: v, a: v, b: v, c: v };
+    let travel = Travel { min: all(-100.0), max: all(100.0) };
+    Options {
+        style: *random.pick(&[Style::Auto, Style::Ngc, Style::Semicolon]),
+        skip_deleted: random.below(2) == 0,
+        travel: (random.below(2) == 0).then_some(travel),
+        ..Options::default()
+    }
+}
+
+/// Reads a text in every way; what must hold for any text.
+fn try_all(text: &str, random: &mut Random, readers: bool) {
+    let options = options(random);
+    let mut steps: Vec<Step> = Vec::new();
+    let mut error = None;
+    for step in Interpreter::new(SourceId(0), text, options.clone()) {
+        match step {
+            Ok(step) => steps.push(step),
+            Err(diag) => error = Some(*diag),
+        }
+    }
+    let diags = check(SourceId(0), text, options);
+    assert_eq!(diags.iter().find(|d| d.severity == Severity::Error), error.as_ref(), "{text:?}");
+    let ended = matches!(steps.last().map(|s| &s.command), Some(Canon::ProgramEnd(_)));
+    assert_eq!(ended, error.is_none(), "{text:?}");
+    assert!(steps.windows(2).all(|w| w[0].block <= w[1].block && w[0].line <= w[1].line), "{text:?}");
+    assert!(diags.iter().all(|d| d.span.start <= d.span.end && d.span.end as usize <= text.len()), "{text:?}");
+    if readers {
+        read_all(text, &steps, &diags);
+    }
+}
+
+fn read_all(text: &str, steps: &[Step], diags: &[takt_base::Diag]) {
+    let mut sources = Sources::new();
+    sources.add("fuzz.ngc", text);
+    diags.iter().for_each(|d| assert!(!takt_base::diag::render(d, &sources).is_empty()));
+    let stats = Stats::of(steps, Position::default());
+    assert!(stats.feed_length_mm().is_finite() && stats.ideal_time_s().is_finite(), "{text:?}");
+    assert!(!draw::draw(steps, text).to_svg().contains("NaN"), "{text:?}");
+    for step in steps {
+        let line = print::line(step, true);
+        let back = print::parse(&line).unwrap_or_else(|e| panic!("{line}: {e:?}"));
+        assert_eq!(print::command(&back.command), print::command(&step.command));
+    }
+}
+
+const ALPHABET: &[u8] = b"GGGMXYZIJKRPFSTN0123456789.-+ ();%/\n\rabcO#[]=*\t\"\\&<,\0\xc3\xa4$";
+
+#[test]
+fn random_bytes() {
+    let mut random = Random(1);
+    for i in 0..RUNS {
+        let length = random.below(48);
+        let bytes: Vec<u8> = (0..length).map(|_| if i % 4 == 0 { random.next() as u8 } else { *random.pick(ALPHABET) }).collect();
+        try_all(&String::from_utf8_lossy(&bytes), &mut random, i % 50 == 0);
+        print::parse(&String::from_utf8_lossy(&bytes)).ok();
+    }
+}
+
+#[test]
+fn mutated_programs() {
+    let mut random = Random(2);
+    let seeds: Vec<String> =
+        (0..200).map(|_| program(&mut random, 6)).chain([include_str!("ngc/plate.ngc").to_owned()]).collect();
+    for i in 0..RUNS {
+        let mut bytes = random.pick(&seeds).clone().into_bytes();
+        for _ in 0..=random.below(4) {
+            mutate(&mut bytes, &mut random);
+        }
+        try_all(&String::from_utf8_lossy(&bytes), &mut random, i % 50 == 0);
+    }
+}
+
+fn mutate(bytes: &mut Vec<u8>, random: &mut Random) {
+    let at = random.below(bytes.len());
+    let end = (at + random.below(12)).min(bytes.len());
+    match random.below(4) {
+        0 if at < bytes.len() => bytes[at] = *random.pick(ALPHABET),
+        1 => bytes.insert(at, *random.pick(ALPHABET)),
+        2 => drop(bytes.drain(at..end)),
+        _ => {
+            let part = bytes[at..end].to_vec();
+            let to = random.below(bytes.len());
+            bytes.splice(to..to, part);
+        }
+    }
+}
+
+/// Generated programs are right, however their blocks are written.
+#[test]
+fn generated_programs_are_right_in_every_style() {
+    let mut random = Random(3);
+    for _ in 0..500 {
+        let text = program(&mut random, 30);
+        let commands = |text: &str| {
+            let steps = Interpreter::new(SourceId(0), text, Options::default());
+            steps.map(|s| s.unwrap_or_else(|d| panic!("{d:?}\n{text}")).command).collect::<Vec<_>>()
+        };
+        let want = commands(&text);
+        assert_eq!(commands(&text.replace('\n', ";")), want);
+        assert_eq!(commands(&text.replace(' ', "").to_lowercase()), want);
+        assert_eq!(
+            commands(&text.replace('\n', " (note\t;) \r\n")).iter().filter(|c| !matches!(c, Canon::Comment(_))).count(),
+            want.len()
+        );
+    }
+}
+
+/// Time is linear in the text, also for texts that are one long block or one long number.
+#[test]
+fn long_texts() {
+    let n = 200_000;
+    for text in [
+        "X".repeat(n),
+        "(".repeat(n),
+        "1".repeat(n),
+        ";".repeat(n),
+        format!("G1X{}", "1 ".repeat(n)),
+        "%\n".repeat(n),
+        "G0X1X".repeat(n),
+    ] {
+        assert!(Interpreter::new(SourceId(0), text, Options::default()).count() < 10);
+    }
+    let words: String = "N1".to_owned() + &"G17".repeat(n);
+    assert_eq!(check(SourceId(0), words, Options::default()).len(), n - 1);
+}

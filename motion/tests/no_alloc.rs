@@ -1,0 +1,79 @@
+//! Cyclic code does not allocate: a whole program under an allocator that counts.
+#![allow(unsafe_code)] // A global allocator can't be written without.
+
+mod common;
+use common::plate;
+use common::rig::{Rig, programs};
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use takt_motion::machine::{AxisConfig, ChannelConfig};
+use takt_motion::{Background, MachineConfig};
+
+struct Counting;
+static ARMED: AtomicBool = AtomicBool::new(false);
+static COUNT: AtomicUsize = AtomicUsize::new(0);
+
+// SAFETY: everything goes to the system allocator unchanged.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        if ARMED.load(Ordering::Relaxed) {
+            COUNT.fetch_add(1, Ordering::Relaxed);
+        }
+        unsafe { System.alloc(layout) }
+    }
+    unsafe fn dealloc(&self, p: *mut u8, layout: Layout) {
+        if ARMED.load(Ordering::Relaxed) {
+            COUNT.fetch_add(1, Ordering::Relaxed);
+        }
+        unsafe { System.dealloc(p, layout) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+fn armed<T>(f: impl FnOnce() -> T) -> T {
+    ARMED.store(true, Ordering::Relaxed);
+    let result = f();
+    ARMED.store(false, Ordering::Relaxed);
+    result
+}
+
+/// Ticks and calls of all blocks, from power-on over a hold to the end of the program: no allocation, no release.
+#[test]
+fn ticks_and_calls_do_not_allocate() {
+    let axis = |name: &str| AxisConfig { v_max_mm_s: 1200.0, a_max_mm_s2: 20_000.0, ..AxisConfig::named(name) };
+    let channel = ChannelConfig { axes: vec!["X".into(), "Y".into()], ..ChannelConfig::default() };
+    let config = MachineConfig {
+        axes: vec![axis("X"), axis("Y")],
+        channels: vec![channel],
+        trace_ticks: 1000,
+        ..MachineConfig::default()
+    };
+    let mut rig = Rig::new(&config, programs(&[("plate", plate(0.0, 0.0))]), Background::Manual);
+    rig.power_on();
+    let names = ["CNC_LoadProgram", "CNC_Run", "CNC_Hold", "CNC_Resume", "CNC_ReadStatus", "CNC_ReadError", "CNC_AuxHandshake"];
+    let fbs: Vec<_> = names.iter().map(|n| rig.fb(n)).collect();
+    let axis_fbs: Vec<_> =
+        ["MC_MoveAbsolute", "MC_Stop", "MC_ReadStatus", "MC_ReadActualPosition"].iter().map(|n| rig.fb(n)).collect();
+    let all: Vec<_> = fbs.iter().chain(&axis_fbs).collect();
+    fbs[4..].iter().chain(&axis_fbs[2..]).for_each(|fb| rig.set(fb, "Enable", true));
+    rig.text(&fbs[0], "FileName", "plate");
+    rig.set(&fbs[0], "Execute", true);
+    let mut done = false;
+    for t in 0..6000 {
+        match t {
+            100 => rig.set(&fbs[1], "Execute", true),
+            800 => rig.set(&fbs[2], "Execute", true),
+            1500 => rig.set(&fbs[3], "Execute", true),
+            900 => rig.set(&axis_fbs[0], "Execute", true),
+            _ => {}
+        }
+        rig.machine.pump();
+        armed(|| rig.run(&all, 1));
+        done |= rig.get(&fbs[1], "Done");
+    }
+    assert!(done, "{:?}", rig.machine.report());
+    assert!(rig.get(&axis_fbs[0], "Error"), "refused: the axis belongs to the channel");
+    assert_eq!(COUNT.load(Ordering::Relaxed), 0);
+}

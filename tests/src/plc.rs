@@ -1,0 +1,146 @@
+//! A program from ST text, run scan by scan on the interpreter and as native code side by side. Whatever is asked, both must agree.
+
+use std::sync::Arc;
+use takt_base::diag::render;
+use takt_base::{Nanos, Severity};
+use takt_compiler::driver::{Compilation, File, Project, compile};
+use takt_compiler::mir::Interpreter;
+use takt_image::value::{read, write_text};
+use takt_image::{Engine, Fault, Image, header, path};
+use takt_runtime::NativeEngine;
+use takt_stdlib::natives::Library;
+
+/// Watchdog of a scan: enough for everything that ends.
+const BUDGET: Nanos = Nanos(2_000_000_000);
+
+/// A loaded program.
+pub struct Plc {
+    /// What runs.
+    pub image: Image,
+    sides: [Side; 2],
+}
+
+/// An engine with its memory.
+struct Side {
+    engine: Box<dyn Engine>,
+    natives: Library,
+    memory: Vec<u8>,
+}
+
+/// Compiles one file.
+pub fn compile_st(text: &str) -> Compilation {
+    let file = File { name: "test.st".into(), bytes: text.into(), library: false };
+    compile(Project { name: "test".into(), files: vec![file], attachments: vec![], interval: None, native: true })
+}
+
+impl Plc {
+    /// Compiles and loads; panics with the messages if the text has errors.
+    pub fn new(text: &str) -> Self {
+        let c = compile_st(text);
+        let errors = c.diags.iter().filter(|d| d.severity == Severity::Error);
+        let messages: Vec<_> = errors.map(|d| render(d, &c.sources)).collect();
+        let (Some(image), Some(module)) = (c.image, c.module) else { panic!("{}\n{text}", messages.join("\n")) };
+        let module = Arc::new(module);
+        let mut natives = [Library::new(), Library::new()];
+        let bindings = Interpreter::bind(&module, &mut natives[0], &image.types).expect("natives bind");
+        let interpreter = Interpreter::new(module, bindings, image.memory.frames).expect("module is right");
+        let native = NativeEngine::new(&image, &mut natives[1]).expect("image loads");
+        let engines: [Box<dyn Engine>; 2] = [Box::new(interpreter), Box::new(native)];
+        let mut pairs = engines.into_iter().zip(natives);
+        let sides = std::array::from_fn(|_| {
+            let (engine, natives) = pairs.next().expect("two sides");
+            Side { engine, natives, memory: initial_memory(&image) }
+        });
+        Plc { image, sides }
+    }
+
+    /// Runs all programs of all tasks once at `now_ms`; panics if the engines differ.
+    pub fn scan(&mut self, now_ms: i64) -> Result<(), Fault> {
+        let tasks = std::mem::take(&mut self.image.tasks);
+        let results = self.sides.each_mut().map(|side| {
+            let mut programs = tasks.iter().flat_map(|t| &t.programs);
+            programs.try_for_each(|p| side.run(p.function, p.instance, now_ms))
+        });
+        self.image.tasks = tasks;
+        assert_eq!(results[0], results[1], "interpreter and native code end differently");
+        if results[0].is_ok() {
+            self.compare();
+        }
+        results[0]
+    }
+
+    /// Scans every 10 ms from 0 on; panics at a fault.
+    pub fn scans(&mut self, count: i64) {
+        for i in 0..count {
+            let result = self.scan(10 * i);
+            assert!(result.is_ok(), "scan {i}: {result:?}");
+        }
+    }
+
+    fn compare(&self) {
+        let range = header::SIZE as usize..self.image.memory.data.end() as usize;
+        let [a, b] = self.sides.each_ref().map(|side| &side.memory[range.clone()]);
+        if let Some(at) = a.iter().zip(b).position(|(x, y)| x != y) {
+            panic!("memories differ at {}: interpreter {}, native {}", at + header::SIZE as usize, a[at], b[at]);
+        }
+    }
+
+    /// A variable as an IEC literal.
+    pub fn get(&self, name: &str) -> String {
+        let v = path::resolve(&self.image, name).unwrap_or_else(|e| panic!("{e}"));
+        read(&self.image.types, &self.sides[0].memory, v.place, v.ty).expect("in memory").to_string()
+    }
+
+    /// Sets a variable from a literal, on both sides.
+    pub fn set(&mut self, name: &str, text: &str) {
+        let v = path::resolve(&self.image, name).unwrap_or_else(|e| panic!("{e}"));
+        for side in &mut self.sides {
+            write_text(&self.image.types, &mut side.memory, v.place, v.ty, text).unwrap_or_else(|e| panic!("{e}"));
+        }
+    }
+}
+
+impl Side {
+    fn run(&mut self, function: u32, instance: u32, now_ms: i64) -> Result<(), Fault> {
+        self.engine.run(function, instance, Nanos::from_millis(now_ms), BUDGET, &mut self.memory, &mut self.natives)
+    }
+}
+
+fn initial_memory(image: &Image) -> Vec<u8> {
+    let mut memory = vec![0; image.memory.size() as usize];
+    for chunk in &image.init {
+        memory[chunk.offset as usize..][..chunk.bytes.len()].copy_from_slice(&chunk.bytes);
+    }
+    memory[header::FRAME_LIMIT as usize..][..4].copy_from_slice(&image.memory.frames.end().to_le_bytes());
+    memory
+}
+
+/// Runs `text` for `scans` scans and compares variables (paths and literals as shown).
+pub fn check_program(text: &str, scans: i64, expected: &[(&str, &str)]) {
+    let mut plc = Plc::new(text);
+    plc.scans(scans);
+    let found: Vec<_> = expected.iter().map(|(name, _)| (*name, plc.get(name))).collect();
+    let found: Vec<_> = found.iter().map(|(name, value)| (*name, value.as_str())).collect();
+    assert_eq!(found, expected, "\n{text}");
+}
+
+/// Runs the statements of `body` once in a program with these variables. `declarations` are types and units in front of it.
+pub fn check_in(declarations: &str, vars: &str, body: &str, expected: &[(&str, &str)]) {
+    let text = format!("{declarations}\nPROGRAM p\nVAR\n{vars}\nEND_VAR\n{body}\nEND_PROGRAM\n");
+    let paths: Vec<_> = expected.iter().map(|(name, _)| format!("p.{name}")).collect();
+    let expected: Vec<_> = paths.iter().zip(expected).map(|(path, (_, value))| (path.as_str(), *value)).collect();
+    check_program(&text, 1, &expected);
+}
+
+/// [`check_in`] without declarations.
+pub fn check(vars: &str, body: &str, expected: &[(&str, &str)]) {
+    check_in("", vars, body, expected);
+}
+
+/// The fault of the first scan, by the number of its trap and its line in the text.
+pub fn fault(text: &str) -> (takt_image::Trap, u32) {
+    let mut plc = Plc::new(text);
+    let fault = plc.scan(0).expect_err("a fault");
+    assert_eq!(plc.image.files.get(fault.file as usize).map(String::as_str), Some("test.st"));
+    (fault.trap, fault.line)
+}
