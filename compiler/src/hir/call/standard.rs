@@ -8,8 +8,8 @@ use crate::syntax::ast::{self, BinaryOp};
 use takt_base::{Code, Diag, Span};
 use takt_image::types::Type;
 use takt_image::{Elementary, Generic, TypeId, natives::MAX_SLOTS};
-use takt_stdlib::Found;
 use takt_stdlib::catalog::{Function, Intrinsic, Lowering, Pattern};
+use takt_stdlib::{ConversionType, Found};
 
 /// Most inputs of an extensible function.
 const INPUTS_MAX: usize = 64;
@@ -27,13 +27,22 @@ impl Builder<'_> {
         want: Option<TypeId>,
     ) -> Operand {
         let Some(exprs) = self.standard_arguments(found, name, args, span) else { return self.bad(span) };
-        let hint = match found {
-            Found::Function { function, fixed: None } if matches!(function.result, Pattern::T(_)) => want,
-            Found::Function { fixed: Some(e), .. } => Some(self.elem(e)),
-            _ => None,
-        };
-        let args: Vec<_> = exprs.into_iter().map(|e| self.operand(e, hint)).collect();
+        let hints: Vec<_> = (0..exprs.len()).map(|i| self.hint(found, i, want)).collect();
+        let args: Vec<_> = exprs.into_iter().zip(hints).map(|(e, hint)| self.operand(e, hint)).collect();
         self.apply(found, args, span, want)
+    }
+
+    /// What the parameter at a position wants, as far as the name says it.
+    fn hint(&mut self, found: Found, i: usize, want: Option<TypeId>) -> Option<TypeId> {
+        match found {
+            Found::Conversion { from: Some(ConversionType::Elementary(e)), .. } => Some(self.elem(e)),
+            Found::Conversion { .. } => None,
+            Found::Function { function, fixed } => match (pattern(function, i), fixed) {
+                (Pattern::Is(e), _) | (Pattern::T(_), Some(e)) => Some(self.elem(e)),
+                (Pattern::T(_), None) if matches!(function.result, Pattern::T(_)) => want,
+                _ => None,
+            },
+        }
     }
 
     /// The arguments in the order of the parameters.

@@ -5,7 +5,9 @@ use super::*;
 const P: &str = "PROGRAM A VAR_INPUT i : INT; END_VAR VAR_OUTPUT o : INT; END_VAR o := i; END_PROGRAM PROGRAM Bg END_PROGRAM";
 
 fn config(inner: &str) -> Built {
-    build(&format!("{P}\nCONFIGURATION c VAR_GLOBAL go : BOOL; x : INT; d : DINT; END_VAR VAR_GLOBAL CONSTANT k : TIME := T#5ms; END_VAR\nRESOURCE r ON PLC\n{inner}\nEND_RESOURCE END_CONFIGURATION"))
+    build(&format!(
+        "{P}\nCONFIGURATION c VAR_GLOBAL go : BOOL; x : INT; d : DINT; END_VAR VAR_GLOBAL CONSTANT k : TIME := T#5ms; END_VAR\nRESOURCE r ON PLC\n{inner}\nEND_RESOURCE END_CONFIGURATION"
+    ))
 }
 
 fn messages(inner: &str) -> String {

@@ -37,12 +37,22 @@ fn constant_expressions() {
 fn local_constants_size_arrays() {
     let text = "PROGRAM p VAR CONSTANT n : INT := 4; m : INT := n * 2; END_VAR VAR a : ARRAY [1..m] OF INT; END_VAR a[8] := 1; a[n] := 2; END_PROGRAM";
     assert_eq!(check(text), "");
-    assert_eq!(check(&text.replace("a[8]", "a[9]")), "P2009 1:101");
+    assert_eq!(check(&text.replace("a[8]", "a[9]")), "P2009 1:103");
+}
+
+#[test]
+fn named_repetitions() {
+    let text = "PROGRAM p VAR CONSTANT n : INT := 2; END_VAR VAR a : ARRAY [1..4] OF INT := [n(1, 7)]; b : ARRAY [1..2] OF INT := [n()]; END_VAR END_PROGRAM";
+    let built = build(text);
+    assert_eq!(built.codes(), "");
+    assert_eq!(show(&built.pou("p").vars[VarId(1)].init), "[1, 7, 1, 7]");
+    assert_eq!(check(&text.replace("[n()]", "[m()]").replace("END_VAR VAR", "END_VAR VAR m : INT;")), "P2005 1:125");
 }
 
 #[test]
 fn an_input_with_a_default_is_no_constant() {
-    let text = "FUNCTION_BLOCK b VAR_INPUT CONSTANT n : INT := 4; END_VAR VAR a : ARRAY [1..n] OF INT; END_VAR END_FUNCTION_BLOCK";
+    let text =
+        "FUNCTION_BLOCK b VAR_INPUT CONSTANT n : INT := 4; END_VAR VAR a : ARRAY [1..n] OF INT; END_VAR END_FUNCTION_BLOCK";
     assert_eq!(check(text), "P2005 1:77");
 }
 

@@ -266,11 +266,11 @@ fn a_mistake_is_reported_once() {
         stmt,
         &[
             ("i := nope + 1 * nope2;", "P1003 4:6, P1003 4:17"),
-            ("i := F(nope) + r;", "P1003 4:8"),
+            ("i := F(a := nope) + r;", "P1003 4:13"),
             ("nope := s + i;", "P1003 4:1, P2002 4:9"),
             ("IF nope > 3 AND b1 THEN i := 1; END_IF;", "P1003 4:4"),
             ("i := a[nope];", "P1003 4:8"),
-            ("vSINT := (vBOOL + vBOOL) * 3;", "P2003 4:11"),
+            ("vSINT := (vBOOL + vBOOL) * 3;", "P2003 4:10"),
             ("nope(i := nope);", "P1003 4:1, P1003 4:11"),
         ],
     );

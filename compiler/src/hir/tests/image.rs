@@ -58,6 +58,9 @@ fn what_an_address_takes() {
 /// The type of an address is that of its size.
 #[test]
 fn addresses_in_expressions() {
-    expect(expr, &[("%IX0.0", "BOOL"), ("%IB0", "BYTE"), ("%IW0", "WORD"), ("%QD0", "DWORD"), ("%ML0", "LWORD"), ("%I5", "BOOL")]);
+    expect(
+        expr,
+        &[("%IX0.0", "BOOL"), ("%IB0", "BYTE"), ("%IW0", "WORD"), ("%QD0", "DWORD"), ("%ML0", "LWORD"), ("%I5", "BOOL")],
+    );
     expect(expr, &[("%IX0.9", "P0008"), ("%IW1.2", "P0012")]);
 }

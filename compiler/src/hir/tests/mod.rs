@@ -44,8 +44,7 @@ fn build_with(library: &[&str], text: &str) -> Built {
     sources.add("a.st", text);
     let mut sink = Sink::new();
     let ids: Vec<SourceId> = sources.iter().map(|(id, _)| id).collect();
-    let files: Vec<(SourceId, ast::File)> =
-        ids.into_iter().map(|id| (id, syntax::parse(&sources, id, &mut sink))).collect();
+    let files: Vec<(SourceId, ast::File)> = ids.into_iter().map(|id| (id, syntax::parse(&sources, id, &mut sink))).collect();
     let hir = super::build(&files, &sources, &mut sink);
     Built { hir, diags: sink.into_sorted(), sources }
 }
@@ -98,7 +97,7 @@ const TYPES: &str = "TYPE Light : (Red, Amber, Green); Mode : (Off, Auto, Hand) 
     FUNCTION F : INT VAR_INPUT a : INT; b : INT := 7; END_VAR F := a + b; END_FUNCTION \
     FUNCTION G : BOOL VAR_INPUT a : REAL; END_VAR VAR_OUTPUT o : INT; q : BOOL; END_VAR VAR_IN_OUT io : DINT; END_VAR \
     G := a > 0.0; io := io + 1; o := 3; q := TRUE; END_FUNCTION \
-    FUNCTION P VAR_INPUT a : INT; END_VAR END_FUNCTION \
+    FUNCTION Pr VAR_INPUT a : INT; END_VAR END_FUNCTION \
     FUNCTION_BLOCK B VAR_INPUT i : INT; e : BOOL R_EDGE; END_VAR VAR_OUTPUT o : INT; q : BOOL; END_VAR \
     VAR_IN_OUT io : DINT; END_VAR VAR n : INT; END_VAR o := i; END_FUNCTION_BLOCK \
     FUNCTION_BLOCK S VAR_INPUT i : INT; END_VAR VAR_OUTPUT o : INT; END_VAR o := i; END_FUNCTION_BLOCK";
@@ -124,7 +123,9 @@ fn expr(text: &str) -> String {
             ExprKind::Const(c) => format!("{} {}", built.hir.types.display(*ty), show(c)),
             _ => built.hir.types.display(*ty),
         },
-        Some(StmtKind::Call(Expr { kind: ExprKind::Const(c), ty, .. })) => format!("{} {}", built.hir.types.display(*ty), show(c)),
+        Some(StmtKind::Call(Expr { kind: ExprKind::Const(c), ty, .. })) => {
+            format!("{} {}", built.hir.types.display(*ty), show(c))
+        }
         other => format!("{other:?}"),
     }
 }
@@ -152,14 +153,16 @@ fn init(declarations: &str, decl: &str) -> String {
 
 /// Each text must be accepted.
 fn accept(what: fn(&str) -> String, texts: &[&str]) {
-    for text in texts {
-        assert_eq!(what(text), "", "{text}");
-    }
+    let cases: Vec<_> = texts.iter().map(|t| (*t, "")).collect();
+    expect(what, &cases);
 }
 
-/// Each text must give these messages.
+/// Each text must give these messages. Shows all that don't.
 fn expect(what: fn(&str) -> String, cases: &[(&str, &str)]) {
-    for (text, messages) in cases {
-        assert_eq!(what(text), *messages, "{text}");
-    }
+    let line = |(text, want): &(&str, &str)| {
+        let got = what(text);
+        (got != *want).then(|| format!("{text}\n     want {want}\n      got {got}\n"))
+    };
+    let wrong: Vec<String> = cases.iter().filter_map(line).collect();
+    assert!(wrong.is_empty(), "\n{}", wrong.concat());
 }

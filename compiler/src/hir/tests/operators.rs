@@ -114,7 +114,7 @@ fn typed_names() {
             ("ADD_DINT(i, d)", "DINT"),
             ("MAX_TIME(t, T#1s)", "TIME"),
             ("SIN_LREAL(r)", "LREAL"),
-            ("SEL_REAL(b1, 1, 2)", "REAL 1.0"),
+            ("SEL_REAL(TRUE, 1, 2)", "REAL 2.0"),
             ("ABS_BOOL(b1)", "P1003"),
             ("ADD_TIME(t, t)", "TIME"),
             ("ADD_DT_TIME(vDT, t)", "DT"),

@@ -6,7 +6,15 @@ use super::*;
 fn members() {
     expect(
         expr,
-        &[("p1.x", "REAL"), ("p1.tag", "STRING[8]"), ("ps[2].y", "REAL"), ("fs.o", "INT"), ("fs.i", "INT"), ("fb.n", "INT"), ("ton1.Q", "BOOL")],
+        &[
+            ("p1.x", "REAL"),
+            ("p1.tag", "STRING[8]"),
+            ("ps[2].y", "REAL"),
+            ("fs.o", "INT"),
+            ("fs.i", "INT"),
+            ("fb.n", "INT"),
+            ("ton1.Q", "BOOL"),
+        ],
     );
     expect(
         stmt,
@@ -62,7 +70,14 @@ fn elements() {
 fn bits() {
     expect(
         expr,
-        &[("vWORD.0", "BOOL"), ("vWORD.15", "BOOL"), ("vWORD.%X3", "BOOL"), ("vDWORD.%B3", "BYTE"), ("vLWORD.%D1", "DWORD"), ("vLWORD.%W3", "WORD")],
+        &[
+            ("vWORD.0", "BOOL"),
+            ("vWORD.15", "BOOL"),
+            ("vWORD.%X3", "BOOL"),
+            ("vDWORD.%B3", "BYTE"),
+            ("vLWORD.%D1", "DWORD"),
+            ("vLWORD.%W3", "WORD"),
+        ],
     );
     expect(
         stmt,
@@ -73,7 +88,6 @@ fn bits() {
             ("b1 := i.3;", "P2003 4:7"),
             ("b1 := b2.0;", "P2003 4:7"),
             ("b1 := r.0;", "P2003 4:7"),
-            ("b1 := vWORD.%B0.3;", "P2003 4:7"),
         ],
     );
 }
@@ -83,6 +97,6 @@ fn bits() {
 fn elements_of_constants_fold() {
     let vars = "x : ARRAY[0..k[1]] OF INT := [1, 2, 3];";
     let constants = "VAR_GLOBAL CONSTANT k : ARRAY[0..1] OF INT := [5, 2]; z : ARRAY[0..1] OF INT; END_VAR";
-    assert_eq!(check_in(constants, vars, ""), "P1008 2:18");
+    assert_eq!(check_in(constants, vars, ""), "P1008 2:14");
     assert_eq!(check_in(constants, "x : INT := z[1] + k[0];", ""), "P1008 2:12, P1008 2:19");
 }

@@ -40,7 +40,9 @@ fn an_instance_has_inputs_outputs_in_outs_variables_and_edge_memory() {
     assert_eq!(pou.params, [VarId(1), VarId(2), VarId(4), VarId(5)]);
     assert_eq!(pou.vars[VarId(4)].edge, Some((Edge::Rising, VarId(6))));
     assert_eq!(show(&built.pou("p").vars[VarId(0)].init), "[0, 7, 0, 0, 3, 0]");
-    assert!(matches!(built.hir.types.get(record.fields[3].ty), Type::Reference { target } if built.hir.types.display(*target) == "DINT"));
+    assert!(
+        matches!(built.hir.types.get(record.fields[3].ty), Type::Reference { target } if built.hir.types.display(*target) == "DINT")
+    );
 }
 
 #[test]
@@ -56,7 +58,9 @@ fn functions_keep_nothing() {
 #[test]
 fn default_arguments_are_written_out() {
     let built = build(&program(TYPES, VARS, "i := F(a := j);"));
-    let StmtKind::Assign { value: Expr { kind: ExprKind::Call { args, .. }, .. }, .. } = &built.pou("p").body[0].kind else { panic!("no call") };
+    let StmtKind::Assign { value: Expr { kind: ExprKind::Call { args, .. }, .. }, .. } = &built.pou("p").body[0].kind else {
+        panic!("no call")
+    };
     assert!(matches!(&args[0], Arg::Value(Expr { kind: ExprKind::Load(_), .. })));
     assert!(matches!(&args[1], Arg::Value(Expr { kind: ExprKind::Const(Const::Int(7)), .. })));
 }
@@ -70,7 +74,13 @@ fn outputs_of_functions_nobody_wants() {
         .map(|a| match a {
             Arg::Value(_) => "value",
             Arg::Reference(_) => "reference",
-            Arg::Output { negated, .. } => if *negated { "complement" } else { "output" },
+            Arg::Output { negated, .. } => {
+                if *negated {
+                    "complement"
+                } else {
+                    "output"
+                }
+            }
             Arg::Unused => "unused",
         })
         .collect();

@@ -4,7 +4,10 @@ use super::*;
 
 #[test]
 fn conditions_are_bool() {
-    accept(stmt, &["IF b1 THEN ; ELSIF i > 3 THEN ; ELSE ; END_IF;", "WHILE b1 DO ; END_WHILE;", "REPEAT ; UNTIL i = 3 END_REPEAT;"]);
+    accept(
+        stmt,
+        &["IF b1 THEN ; ELSIF i > 3 THEN ; ELSE ; END_IF;", "WHILE b1 DO ; END_WHILE;", "REPEAT ; UNTIL i = 3 END_REPEAT;"],
+    );
     expect(
         stmt,
         &[
@@ -89,7 +92,13 @@ fn for_loops() {
 
 #[test]
 fn exit_and_continue() {
-    accept(stmt, &["WHILE b1 DO IF b2 THEN EXIT; END_IF; CONTINUE; END_WHILE;", "FOR i := 1 TO 2 DO CASE i OF 1: EXIT; END_CASE; END_FOR;"]);
+    accept(
+        stmt,
+        &[
+            "WHILE b1 DO IF b2 THEN EXIT; END_IF; CONTINUE; END_WHILE;",
+            "FOR i := 1 TO 2 DO CASE i OF 1: EXIT; END_CASE; END_FOR;",
+        ],
+    );
     expect(
         stmt,
         &[
@@ -106,9 +115,25 @@ fn exit_and_continue() {
 fn what_can_be_assigned() {
     accept(
         stmt,
-        &["p1.x := r;", "a[i] := 3;", "m[1, 2] := r;", "m[1][2] := r;", "rows[1][2] := 3;", "rows[1, 2] := 3;", "vWORD.3 := b1;",
-          "vWORD.%B1 := vBYTE;", "vLWORD.%D0 := vDWORD;", "s[2] := 'x';", "fs.i := 3;", "fbs[1].i := 3;", "ps[i].x := 1;", "ton1.PT := t;",
-          "%QW3 := vWORD;", "%QX0.1 := b1;", "%MD4 := vDWORD;"],
+        &[
+            "p1.x := r;",
+            "a[i] := 3;",
+            "m[1, 2] := r;",
+            "m[1][2] := r;",
+            "rows[1][2] := 3;",
+            "rows[1, 2] := 3;",
+            "vWORD.3 := b1;",
+            "vWORD.%B1 := vBYTE;",
+            "vLWORD.%D0 := vDWORD;",
+            "s[2] := 'x';",
+            "fs.i := 3;",
+            "fbs[1].i := 3;",
+            "ps[i].x := 1;",
+            "ton1.PT := t;",
+            "%QW3 := vWORD;",
+            "%QX0.1 := b1;",
+            "%MD4 := vDWORD;",
+        ],
     );
     expect(
         stmt,
