@@ -7,7 +7,7 @@ use std::path::Path;
 use takt_image::Image;
 use takt_image::path::Variable;
 use takt_image::value::{Value, read};
-use takt_motion::machine::{AxisReport, ChannelReport, MachineConfig, MachineReport, Trace};
+use takt_motion::machine::{AxisReport, ChannelReport, MachineConfig, MachineReport, PulseReport, Trace};
 use takt_motion::svg::{Picture, Stroke};
 use takt_runtime::{Histogram, Resource};
 
@@ -63,21 +63,21 @@ fn channel(c: &ChannelReport, axes: &[&AxisReport], deviation_mm: f64) -> String
         None => {
             let _ = writeln!(out, ", maximum path deviation {deviation_mm:.4} mm");
         }
-        Some(p) => {
-            let _ = writeln!(
-                out,
-                "\n  pulses up {:?}, down {:?}, iterations {}, at most {} a tick",
-                p.up, p.down, p.iterations, p.batch_max
-            );
-            if p.wrapped.contains(&true) {
-                let _ = writeln!(out, "  an 8-bit counter of the interface wrapped: {:?}", p.wrapped);
-            }
-        }
+        Some(p) => out += &pulses(p),
     }
     if let Some(e) = &c.error {
         let _ = writeln!(out, "  {}: {} (line {}, column {})", e.code.text(), e.text, e.line, e.column);
     }
     out
+}
+
+/// Pulses of the axes that moved.
+fn pulses(p: &PulseReport) -> String {
+    let moved = (0..3).filter(|&i| p.up[i] + p.down[i] > 0);
+    let counts: Vec<_> = moved.map(|i| format!("{} +{} -{}", ['X', 'Y', 'Z'][i], p.up[i], p.down[i])).collect();
+    let (counts, iterations, most) = (counts.join(", "), p.iterations, p.batch_max);
+    let wrapped = if p.wrapped.contains(&true) { "\n  an 8-bit counter of the interface wrapped" } else { "" };
+    format!("\n  pulses {counts}; {iterations} iterations, at most {most} a tick{wrapped}\n")
 }
 
 /// Whole numbers without decimals: an end point reads as the part program says it.

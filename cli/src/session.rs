@@ -67,6 +67,10 @@ impl Session {
         let compilation = compile(&project)?;
         diagnostics::print(&compilation.diags, &compilation.sources);
         let Some(image) = compilation.image else { return Ok(None) };
+        if image.tasks.iter().all(|t| t.programs.is_empty()) {
+            let text = format!("{}: {}", project.name, Code::NoProgram.title());
+            return Err(Problem::File(Code::NoProgram, text));
+        }
         let module = compilation.module.map(Arc::new);
         Ok(Some(Self { name: project.name, image, module, keys: project.keys, machine, root: project.root }))
     }

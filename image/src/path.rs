@@ -105,7 +105,7 @@ fn descend(image: &Image, v: Variable, step: &Step) -> Found {
             let offset = offset.saturating_add(at.saturating_mul(image.types.layout(*element).size));
             let index: Vec<_> = index.iter().map(i128::to_string).collect();
             Ok(Variable {
-                name: format!("{}[{}]", v.name, index.join(", ")),
+                name: format!("{}[{}]", v.name, index.join(",")),
                 place: Place::Byte(offset),
                 ty: (*element).into(),
                 ..v
@@ -229,8 +229,8 @@ mod tests {
             ("main.GO", "main.go at 88: BOOL"),
             ("cell.main.count", "main.count at 90: Percent"),
             ("main.count.%X9", "main.count.9 at 91.1: direct BOOL"),
-            ("points[1, 1].X", "points[1, 1].x at 242: INT"),
-            ("points[-1,0].label", "points[-1, 0].label at 154: STRING[7]"),
+            ("points[1, 1].X", "points[1,1].x at 242: INT"),
+            ("points[-1,0].label", "points[-1,0].label at 154: STRING[7]"),
             ("Lamp", "lamp at 72.3: BOOL"),
             ("main.cuont", "C0007: `main` has no member `cuont` (did you mean `count`?)"),
             ("mian.go", "C0007: there is no variable or program instance `mian` (did you mean `main`?)"),

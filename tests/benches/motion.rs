@@ -19,7 +19,7 @@ fn part_program() -> String {
     let mut text = String::from("G21 G17 G90 F3000\n");
     for i in 0..BLOCKS {
         let a = i as f64 * 0.01;
-        let _ = writeln!(text, "G1 X{:.4} Y{:.4}", 50.0 * cosine(a), 50.0 * cosine(a + 1.570_796));
+        let _ = writeln!(text, "G1 X{:.4} Y{:.4}", 50.0 * cosine(a), 50.0 * cosine(a + std::f64::consts::FRAC_PI_2));
     }
     text + "M2\n"
 }

@@ -103,7 +103,7 @@ impl Generator {
 
     fn types(&mut self) {
         self.line("TYPE");
-        self.line("  Point : STRUCT x : DINT := 3; y : REAL; on : BOOL := TRUE; END_STRUCT;");
+        self.line("  Point : STRUCT x : DINT := 3; y : REAL; lit : BOOL := TRUE; END_STRUCT;");
         self.line("  Mode : (idle, slow, fast);");
         self.line("END_TYPE");
     }
@@ -176,9 +176,16 @@ impl Generator {
         self.line("END_PROGRAM");
     }
 
-    /// Loop counters and a spare selector, never assigned by other statements.
+    /// Loop counters, never assigned by other statements, and a variable of every type, so that no expression needs a literal: the
+    /// checker refuses constant expressions that overflow.
     fn counters(&mut self) {
         self.line("VAR");
+        for &ty in SCALARS {
+            let name = format!("k_{}", ty.name().to_lowercase());
+            let init = self.literal(ty);
+            self.line(format!("  {name} : {} := {init};", ty.name()));
+            self.vars.push(Var { text: name, ty, writable: true });
+        }
         self.line("  c0 : DINT; c1 : INT; c2 : USINT; w0 : INT; w1 : INT; w2 : INT;");
         self.line("END_VAR");
         self.counters = 0;
@@ -191,9 +198,9 @@ impl Generator {
         add("grid[1, 2]", E::Real);
         add("p.x", E::Dint);
         add("p.y", E::Real);
-        add("p.on", E::Bool);
+        add("p.lit", E::Bool);
         add("ps[1].x", E::Dint);
-        add("ps[2].on", E::Bool);
+        add("ps[2].lit", E::Bool);
         add("pct", E::Int);
         for (i, block) in self.blocks.iter().enumerate() {
             for (name, ty) in &block.outputs {
@@ -237,7 +244,7 @@ impl Generator {
     fn assign(&mut self) {
         let places: Vec<Var> = self.vars.iter().filter(|v| v.writable).cloned().collect();
         let place = places[self.random.below(places.len())].clone();
-        let value = self.expr(place.ty, 3);
+        let value = if self.random.one_in(8) { self.literal(place.ty) } else { self.expr(place.ty, 3) };
         self.line(format!("{} := {value};", place.text));
     }
 
@@ -360,9 +367,9 @@ impl Generator {
     /// Statements on arrays, structures, enumerations and strings of the main program.
     fn main_only(&mut self) {
         let int = self.expr(E::Int, 2);
-        let index = match self.random.below(3) {
-            0 => format!("ABS(({int}) MOD 6) - 1"),
-            1 => format!("LIMIT(-2, {int}, 5)"),
+        let index = match self.random.below(16) {
+            0..8 => format!("ABS(({int}) MOD 6) - 1"),
+            8..15 => format!("LIMIT(-2, {int}, 5)"),
             _ => format!("({int}) MOD 9"),
         };
         let real = self.expr(E::Real, 2);
@@ -376,7 +383,7 @@ impl Generator {
             7 => self.line(format!("t := MID(s, 3, ABS({int}) MOD 4 + 1);")),
             8 => self.line("IF s < t OR s = 'abcx' THEN s := 'abc'; END_IF;"),
             9 => self.line(format!("pct := LEN(s) + arr[ABS(({int}) MOD 6)];")),
-            10 => self.line("CASE mode OF idle: pct := pct + 1; slow, fast: p.on := NOT p.on; END_CASE;"),
+            10 => self.line("CASE mode OF idle: pct := pct + 1; slow, fast: p.lit := NOT p.lit; END_CASE;"),
             _ => self.line(format!("s := INT_TO_STRING({int});")),
         }
     }
@@ -414,15 +421,13 @@ impl Generator {
     fn expr(&mut self, ty: E, depth: usize) -> String {
         let readable: Vec<String> = self.vars.iter().filter(|v| v.ty == ty).map(|v| v.text.clone()).collect();
         if depth == 0 || self.random.one_in(4) {
-            return match readable.is_empty() || self.random.one_in(4) {
-                true => self.literal(ty),
-                false => readable[self.random.below(readable.len())].clone(),
-            };
+            return readable[self.random.below(readable.len())].clone();
         }
-        if self.random.one_in(8) && self.in_main() {
-            if let Some(call) = self.call_function(ty, depth) {
-                return call;
-            }
+        if self.random.one_in(8)
+            && self.in_main()
+            && let Some(call) = self.call_function(ty, depth)
+        {
+            return call;
         }
         if self.random.one_in(7) {
             let (a, b, g) = (self.expr(ty, depth - 1), self.expr(ty, depth - 1), self.expr(E::Bool, depth - 1));
@@ -482,10 +487,13 @@ impl Generator {
     fn int_expr(&mut self, ty: E, depth: usize) -> String {
         let (a, b) = (self.expr(ty, depth - 1), self.expr(ty, depth - 1));
         match self.random.below(11) {
-            0 | 1 => format!("({a} + {b})"),
-            2 | 3 => format!("({a} - {b})"),
+            0 => format!("({a} + {b})"),
+            1 => format!("({a} + {})", self.literal(ty)),
+            2 => format!("({a} - {b})"),
+            3 => format!("({a} * {})", self.literal(ty)),
             4 => format!("({a} * {b})"),
-            5 => format!("({a} / {b})"),
+            5 if self.random.one_in(20) => format!("({a} / {b})"),
+            5 => format!("({a} / {}#{})", ty.name(), 1 + self.random.below(99)),
             6 => format!("({a} MOD {b})"),
             7 if ty.is_signed_int() => format!("ABS({a})"),
             8 if ty.is_signed_int() => format!("(-({a}))"),

@@ -16,9 +16,8 @@ pub fn render(diag: &Diag, sources: &Sources) -> String {
     let at = source.line_col(diag.span.start);
     let margin = at.line.to_string().len();
     let _ = writeln!(out, "{:margin$}--> {}", "", place(sources, diag.span));
-    let line = source.line(at.line).replace('\t', " ");
+    let (line, before) = excerpt(source.line(at.line), at.column as usize - 1);
     let _ = writeln!(out, "{} | {line}", at.line);
-    let before = at.column as usize - 1;
     let width = underlined(sources, diag.span, line.chars().count().saturating_sub(before));
     let carets = format!("{:margin$} | {:before$}{} {}", "", "", "^".repeat(width), diag.label);
     let _ = writeln!(out, "{}", carets.trim_end());
@@ -37,6 +36,24 @@ fn place(sources: &Sources, span: Span) -> String {
     format!("{}:{}:{}", source.name, at.line, at.column)
 }
 
+/// The line, or of a long one the part around the place; and the number of characters before the place.
+fn excerpt(line: &str, before: usize) -> (String, usize) {
+    let shown = |c: char| if c.is_control() { ' ' } else { c };
+    let first = before.saturating_sub(BEFORE);
+    let cut = line.chars().nth(LINE_MAX).is_some();
+    if !cut {
+        return (line.chars().map(shown).collect(), before);
+    }
+    let part = line.chars().skip(first).take(LINE_MAX).map(shown);
+    let (head, tail) = (if first > 0 { "…" } else { "" }, if line.chars().nth(first + LINE_MAX).is_some() { "…" } else { "" });
+    (format!("{head}{}{tail}", part.collect::<String>()), before - first + head.chars().count())
+}
+
+/// Longest part of a line that is shown, in characters.
+const LINE_MAX: usize = 160;
+/// Characters of it before the place.
+const BEFORE: usize = 60;
+
 /// Number of carets: the span, but not past the end of its first line, and at least one.
 fn underlined(sources: &Sources, span: Span, room: usize) -> usize {
     sources.text(span).lines().next().unwrap_or("").chars().count().min(room).max(1)
@@ -46,6 +63,17 @@ fn underlined(sources: &Sources, span: Span, room: usize) -> usize {
 mod tests {
     use super::*;
     use crate::diag::Code;
+
+    #[test]
+    fn of_a_long_line_the_part_around_the_place_is_shown() {
+        let mut sources = Sources::new();
+        let text = format!("{}x{}", "a".repeat(500), "b".repeat(500));
+        let id = sources.add("long.st", text);
+        let shown = render(&Diag::new(Code::UnknownName, Span::new(id, 500, 501), "here"), &sources);
+        let lines: Vec<_> = shown.lines().collect();
+        assert_eq!(lines[2], format!("1 | …{}x{}…", "a".repeat(60), "b".repeat(99)));
+        assert_eq!(lines[3], format!("  | {}^ here", " ".repeat(61)));
+    }
 
     #[test]
     fn shows_place_label_note_and_help() {

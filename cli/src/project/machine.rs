@@ -3,8 +3,9 @@
 use super::file::{AxisKeys, ChannelKeys, ProjectFile};
 use super::load::Problem;
 use crate::duration;
-use takt_base::{Code, Nanos};
+use takt_base::{Code, Nanos, SourceId};
 use takt_motion::machine::{AxisConfig, ChannelConfig, ChannelMode, MachineConfig};
+use takt_motion::ngc::Options;
 use takt_motion::pulse::dda::Preload;
 
 /// Iterations that the reference-pulse mode may do in one servo period.
@@ -59,6 +60,10 @@ fn axis(k: &AxisKeys) -> Result<AxisConfig, Problem> {
 
 fn channel(k: &ChannelKeys) -> Result<ChannelConfig, Problem> {
     let d = ChannelConfig::default();
+    let modes = k.modes.clone().unwrap_or_default();
+    if let Err(diag) = Options::default().with_modes(SourceId(0), &modes) {
+        return Err(bad(format!("modes = \"{modes}\": {} ({})", diag.message, diag.label)));
+    }
     Ok(ChannelConfig {
         name: k.name.clone(),
         axes: k.axes.clone(),
@@ -66,7 +71,7 @@ fn channel(k: &ChannelKeys) -> Result<ChannelConfig, Problem> {
         handshake: k.handshake.unwrap_or(true),
         aux_timeout_s: time("aux_timeout", k.aux_timeout.as_deref(), Nanos::ZERO)?.as_secs(),
         require_homed: k.require_homed.unwrap_or(d.require_homed),
-        modes: k.modes.clone().unwrap_or_default(),
+        modes,
         ..d
     })
 }

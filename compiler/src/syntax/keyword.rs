@@ -11,6 +11,7 @@ macro_rules! keywords {
         const WORDS: &[(&str, Kw)] = &[$($(($text, Kw::$name),)*)*];
 
         impl Kw {
+            /// Every marked word, in any case.
             fn class(self) -> Class {
                 match self { Kw::None => Class::Free, $($(Kw::$name => Class::$class,)*)* }
             }

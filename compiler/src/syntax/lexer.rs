@@ -140,13 +140,19 @@ pub(crate) struct Tokens {
     pub(crate) list: Vec<Token>,
     /// Positions in `list` before which `{external}` stands, ascending.
     pub(crate) external: Vec<usize>,
-    /// A comment or pragma runs to the end of the file: what seems missing there may stand in it.
+    /// A comment or pragma that is not closed (and has been reported) hides the end of the text.
     pub(crate) cut: bool,
 }
+
+/// Some editors write it at the start of a file; it means nothing there.
+const BYTE_ORDER_MARK: char = '\u{feff}';
 
 /// Splits the text; reports what is not closed and what is no token.
 pub(crate) fn lex(text: &str, source: SourceId, report: &mut Report) -> Tokens {
     let mut scan = Scan { logos: Tok::lexer(text), source, report, external: Vec::new(), cut: false };
+    if text.starts_with(BYTE_ORDER_MARK) {
+        scan.logos.bump(BYTE_ORDER_MARK.len_utf8());
+    }
     let mut list: Vec<Token> = Vec::with_capacity(text.len() / 5 + 1);
     while let Some(next) = scan.logos.next() {
         let start = scan.logos.span().start;
@@ -223,9 +229,7 @@ impl Scan<'_, '_, '_> {
         let prefix = slice.strip_suffix('#').unwrap_or(slice);
         let is_one_of = |names: &[&str]| names.iter().any(|n| n.eq_ignore_ascii_case(prefix));
         if is_one_of(&["T", "TIME", "LT", "LTIME"]) {
-            if self.logos.remainder().starts_with(['+', '-']) {
-                self.logos.bump(1);
-            }
+            self.take_while(|b, _| matches!(b, b'+' | b'-'));
             self.take_while(|b, next| b.is_ascii_alphanumeric() || b == b'_' || b == b'.' && next != Some(b'.'));
             return Tok::Duration;
         }
@@ -269,7 +273,11 @@ impl Scan<'_, '_, '_> {
         self.logos.bump(i);
         let quote = quote as char;
         let diag = Diag::new(Code::UnterminatedString, self.span(), "the line ends inside this string");
-        self.report.push(diag.help(format!("close it with {quote}; write $N for a line end and ${quote} for the quote itself")));
+        let help = match self.logos.slice().contains(&format!("${quote}")) {
+            true => format!("${quote} is a quote inside of the string; write $${quote} for a dollar sign before its end"),
+            false => format!("close it with {quote}; write $N for a line end and ${quote} for the quote itself"),
+        };
+        self.report.push(diag.help(help));
         Tok::Error
     }
 
@@ -313,8 +321,8 @@ impl Scan<'_, '_, '_> {
         let rest = self.logos.remainder();
         let close = if rest.starts_with('{') { "}}" } else { "}" };
         let Some(n) = rest.find(close) else {
-            self.cut = true;
             self.logos.bump(rest.len());
+            self.cut = true;
             let diag = Diag::new(Code::UnterminatedComment, opener, "opened here and still open at the end of the file");
             self.report.push(diag.message("a pragma is not closed").help(format!("close it with {close}")));
             return None;

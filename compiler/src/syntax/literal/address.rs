@@ -33,17 +33,15 @@ pub(crate) fn direct(text: &str, span: Span) -> Result<Address, Problem> {
 pub(crate) fn partial(text: &str) -> Result<(AddressSize, u32), Problem> {
     let body = text.strip_prefix('%').unwrap_or(text);
     let size = size_of(body).ok_or_else(|| bad("not a part of a value").help("the parts are %X (bit), %B, %W, %D and %L"))?;
-    let path = path(&body[1..])?;
-    match path[..] {
-        [index] => Ok((size, index)),
-        _ => Err(bad("a part has one number")),
+    match body.get(1..) {
+        Some(digits) if !digits.is_empty() => Ok((size, index(digits)?)),
+        _ => Err(bad("the number is missing").help("for example %X3 or %B1")),
     }
 }
 
-/// True for `%X4.2` in a structure: a size and no area.
-pub(crate) fn is_relative(text: &str) -> bool {
-    let body = text.strip_prefix('%').unwrap_or(text);
-    size_of(body).is_some() && path(&body[1..]).is_ok()
+/// `7` in `%B1.7`.
+pub(crate) fn bit(text: &str) -> Result<u32, Problem> {
+    index(text)
 }
 
 fn size_of(text: &str) -> Option<AddressSize> {

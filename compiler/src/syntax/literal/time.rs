@@ -25,7 +25,7 @@ pub(crate) fn duration(token: &str) -> Read {
     let (prefix, body) = token.split_once('#').unwrap_or((token, ""));
     let ty = if prefix.starts_with(['l', 'L']) { Elementary::Ltime } else { Elementary::Time };
     let negative = body.starts_with('-');
-    let body = body.trim_start_matches(['+', '-']);
+    let body = body.strip_prefix(['+', '-']).unwrap_or(body);
     if body.is_empty() {
         return Err(bad("no duration behind the #").help("write it with units, for example T#1h30m or T#250ms"));
     }
@@ -97,7 +97,7 @@ impl<'a> Part<'a> {
 fn no_unit(unit: &str, number: &str) -> Problem {
     if unit.is_empty() {
         return bad(format!("{number} has no unit"))
-            .help(format!("write {number}ms, {number}s, {number}m, {number}h or {number}d"));
+            .help(format!("write T#{number}ms, T#{number}s, T#{number}m, T#{number}h or T#{number}d"));
     }
     bad(format!("no unit is called {unit}")).help("the units are d h m s ms us ns")
 }
@@ -114,14 +114,13 @@ fn scale(number: &str, unit: i128) -> Result<(i128, bool), Problem> {
     if !well_formed(whole) || !well_formed(fraction) {
         return Err(bad(format!("{number} is not a number")));
     }
-    let mut nanos = digits(whole).and_then(|w| w.checked_mul(unit)).ok_or_else(|| bad("longer than the longest duration"))?;
+    let nanos = digits(whole).and_then(|w| w.checked_mul(unit)).ok_or_else(|| bad("longer than the longest duration"))?;
     let (part, exact) = fraction_of(fraction, unit, nanos % 2 != 0);
-    nanos = nanos.saturating_add(part);
-    Ok((nanos, exact))
+    Ok((nanos.saturating_add(part), exact))
 }
 
-/// `0.fraction * unit`, rounded half to even together with the whole part, which is odd or not.
-fn fraction_of(fraction: &str, unit: i128, whole_is_odd: bool) -> (i128, bool) {
+/// `0.fraction * unit`, rounded half to even; `odd`: what it is added to is odd.
+fn fraction_of(fraction: &str, unit: i128, odd: bool) -> (i128, bool) {
     let (mut numerator, mut denominator, mut rest_is_zero) = (0i128, 1i128, true);
     for (i, d) in fraction.bytes().filter(u8::is_ascii_digit).enumerate() {
         let d = i128::from(d - b'0');
@@ -135,7 +134,7 @@ fn fraction_of(fraction: &str, unit: i128, whole_is_odd: bool) -> (i128, bool) {
     let product = numerator * unit; // below 10^22 * 8.64 * 10^13: fits
     let (quotient, remainder) = (product / denominator, product % denominator);
     let half = (remainder * 2).cmp(&denominator);
-    let up = half.is_gt() || half.is_eq() && (!rest_is_zero || (quotient % 2 == 1) != whole_is_odd);
+    let up = half.is_gt() || half.is_eq() && (!rest_is_zero || (quotient % 2 == 1) != odd);
     (quotient + i128::from(up), remainder == 0 && rest_is_zero)
 }
 

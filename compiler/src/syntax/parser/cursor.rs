@@ -8,7 +8,7 @@ use std::collections::HashSet;
 use takt_base::diag::{Code, Diag};
 use takt_base::{SourceId, Span};
 
-/// Deepest nesting of statements; and, counted on their own, of types, initial values and expressions together.
+/// Deepest nesting of statements, types, initial values and expressions, counted together.
 pub(super) const MAX_DEPTH: u32 = 200;
 
 /// What the file is read with.
@@ -23,7 +23,8 @@ pub(super) struct Parser<'a> {
     /// Position of the last message: there is only one for each token.
     last_error: usize,
     depth: u32,
-    statement_depth: u32,
+    /// Nesting that is too deep was reported; not again before it has ended.
+    deep: bool,
     /// Closing keywords of the statements that are open.
     pub(super) open: Vec<Kw>,
     /// An unclosed statement was reported; the ones around it are not, up to the end of the unit.
@@ -32,9 +33,9 @@ pub(super) struct Parser<'a> {
     named: HashSet<u8>,
     /// Names with misplaced underscores; reported once.
     misspelt: HashSet<String>,
-    /// Position of an END_VAR that was looked for.
-    pub(super) end_var: usize,
     library: bool,
+    /// Positions from the first to the second have no section keyword between; see `var`.
+    pub(super) section_ahead: (usize, usize),
 }
 
 impl<'a> Parser<'a> {
@@ -48,13 +49,13 @@ impl<'a> Parser<'a> {
             lost: false,
             last_error: usize::MAX,
             depth: 0,
-            statement_depth: 0,
+            deep: false,
             open: Vec::new(),
             unwinding: false,
             named: HashSet::new(),
             misspelt: HashSet::new(),
-            end_var: 0,
             library,
+            section_ahead: (0, 0),
         }
     }
 
@@ -151,20 +152,11 @@ impl<'a> Parser<'a> {
     }
     pub(super) fn leave(&mut self) {
         self.depth -= 1;
-    }
-    /// As [`Parser::enter`], for a statement.
-    pub(super) fn enter_statement(&mut self) -> bool {
-        self.statement_depth += 1;
-        if self.statement_depth > MAX_DEPTH {
-            self.too_deep(format!("more than {MAX_DEPTH} statements inside of one another"));
-            return false;
-        }
-        true
-    }
-    pub(super) fn leave_statement(&mut self) {
-        self.statement_depth -= 1;
+        self.deep &= self.depth > 0;
     }
     pub(super) fn too_deep(&mut self, label: String) {
+        self.lost |= self.deep;
+        self.deep = true;
         let diag = Diag::new(Code::NestedTooDeep, self.here(), label);
         self.error(diag.help("split it: give a part its own variable, function or type"));
     }
@@ -225,13 +217,17 @@ impl<'a> Parser<'a> {
 
     /// A name that is declared here; `what` says of what. A keyword is reported once and then is a name.
     pub(super) fn declared_name(&mut self, what: &str) -> Option<Name> {
-        let kw = self.kw();
-        let is_named = matches!(self.nth(1).kind, Tok::Colon | Tok::Comma | Tok::Assign) || self.nth(1).kw == Kw::At;
-        if !self.at(Tok::Word) || (kw.ends_statements() || kw.opens_statement()) && !is_named {
+        if self.at(Tok::BadNumber) {
+            let diag = Diag::new(Code::BadNumber, self.here(), format!("expected {what}"));
+            self.error(diag.help("a name starts with a letter or an underscore"));
+            return None;
+        }
+        let is_forgotten = self.kw().is_section() || self.kw().ends_declaration();
+        if !self.at(Tok::Word) || is_forgotten {
             self.expected(what);
             return None;
         }
-        if kw.is_reserved() {
+        if self.kw().is_reserved() {
             self.keyword_as_name(what);
         }
         Some(self.name())

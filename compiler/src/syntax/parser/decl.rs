@@ -63,6 +63,7 @@ impl Parser<'_> {
         let opener_name = self.bump().kw.text();
         let name = self.pou_head();
         let result = self.result_type();
+        self.heritage();
         self.eat(Tok::Semi);
         let mut sections = self.sections();
         let body = self.pou_body(&mut sections);
@@ -80,6 +81,15 @@ impl Parser<'_> {
             self.bump();
         }
         let name = self.declared_name("the name of the unit");
+        self.heritage();
+        if self.lost {
+            self.skip_head();
+        }
+        name
+    }
+
+    /// EXTENDS, IMPLEMENTS and USING with their names.
+    fn heritage(&mut self) {
         while matches!(self.kw(), Kw::Extends | Kw::Implements | Kw::Using) {
             let what = self.kw().text();
             self.unsupported_here(what);
@@ -91,11 +101,8 @@ impl Parser<'_> {
             if self.at(Tok::Word) && !self.kw().is_reserved() {
                 self.bump();
             }
+            self.eat(Tok::Semi);
         }
-        if self.lost {
-            self.skip_head();
-        }
-        name
     }
 
     /// `: INT` behind the name; `: VOID` is no result.

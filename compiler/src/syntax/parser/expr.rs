@@ -1,11 +1,12 @@
-//! Expressions: precedence climbing over unary forms.
+//! Expressions: precedence climbing over unary, postfix and primary forms.
 //! From: IEC 61131-3 §7.3.2 (language reference §5.1, §5.2).
 
 use super::cursor::Parser;
-use super::literal::fold_sign;
-use crate::syntax::ast::{BinaryOp, Expr, ExprKind, UnaryOp};
+use super::literal::{fold_sign, problem_diag};
+use crate::syntax::ast::{AddressSize, BinaryOp, Expr, ExprKind, Literal, Name, UnaryOp};
 use crate::syntax::keyword::Kw;
-use crate::syntax::lexer::Tok;
+use crate::syntax::lexer::{Tok, Token};
+use crate::syntax::literal::address;
 use takt_base::Span;
 use takt_base::diag::{Code, Diag};
 
@@ -19,10 +20,10 @@ pub(super) struct Tree {
 }
 
 impl Tree {
-    pub(super) fn leaf(expr: Expr) -> Self {
+    fn leaf(expr: Expr) -> Self {
         Self { expr, height: 1 }
     }
-    pub(super) fn error(span: Span) -> Self {
+    fn error(span: Span) -> Self {
         Self::leaf(error(span))
     }
 }
@@ -158,7 +159,7 @@ impl Parser<'_> {
         let operand = self.unary();
         self.leave();
         let span = start.to(operand.expr.span);
-        if let (UnaryOp::Neg, Some(literal)) = (op, fold_sign(&operand.expr)) {
+        if let Some(literal) = fold_sign(op, &operand.expr) {
             return Tree::leaf(Expr { kind: ExprKind::Literal(literal), span });
         }
         self.grown(Expr { kind: ExprKind::Unary(op, Box::new(operand.expr)), span }, operand.height)
@@ -168,4 +169,196 @@ impl Parser<'_> {
     fn is_formal_call(&self) -> bool {
         self.nth(1).kind == Tok::LParen && self.nth(2).kind == Tok::Word && self.nth(3).kind == Tok::Assign
     }
+
+    fn postfix(&mut self) -> Tree {
+        let mut tree = self.primary();
+        let callable = !matches!(tree.expr.kind, ExprKind::Literal(_));
+        while !self.lost && callable {
+            tree = match self.kind() {
+                Tok::Dot => self.member(tree),
+                Tok::LBracket => self.index(tree),
+                Tok::LParen => self.call(tree),
+                Tok::Caret => {
+                    self.unsupported_here("dereferencing (^)");
+                    self.bump();
+                    Tree::error(self.since(tree.expr.span))
+                }
+                _ => break,
+            };
+        }
+        tree
+    }
+
+    /// `.name`, `.3`, `.%X3`; the dot is the current token.
+    fn member(&mut self, base: Tree) -> Tree {
+        self.bump();
+        let start = base.expr.span;
+        let token = self.peek();
+        let kind = match token.kind {
+            Tok::Word => {
+                let name = self.name();
+                ExprKind::Member(Box::new(base.expr), name)
+            }
+            Tok::Int => {
+                self.bump();
+                match self.text_of(token).parse() {
+                    Ok(index) => ExprKind::Part { base: Box::new(base.expr), size: AddressSize::Bit, index },
+                    Err(_) => self.bad_part(token),
+                }
+            }
+            Tok::Direct => self.part(base.expr, token),
+            _ => {
+                self.expected("the name of a member, or the number of a bit, behind the point");
+                return Tree::error(start);
+            }
+        };
+        let span = self.since(start);
+        self.grown(Expr { kind, span }, base.height)
+    }
+
+    /// `%X3`, or `%B1.7`: bit 7 of byte 1.
+    fn part(&mut self, base: Expr, token: Token) -> ExprKind {
+        let (text, span) = (self.text_of(token), self.span_of(token));
+        let dot = text.find('.').unwrap_or(text.len());
+        let read =
+            address::partial(&text[..dot]).and_then(|first| Ok((first, text.get(dot + 1..).map(address::bit).transpose()?)));
+        match read {
+            Ok(((size, index), bit)) => {
+                self.bump();
+                let part = ExprKind::Part { base: Box::new(base), size, index };
+                let Some(index) = bit else { return part };
+                let base = Expr { kind: part, span: Span { end: span.start + dot as u32, ..span } };
+                ExprKind::Part { base: Box::new(base), size: AddressSize::Bit, index }
+            }
+            Err(problem) => {
+                self.soft(problem_diag(problem, span));
+                self.bump();
+                ExprKind::Error
+            }
+        }
+    }
+
+    fn bad_part(&mut self, token: Token) -> ExprKind {
+        self.soft(Diag::new(Code::BadAddress, self.span_of(token), "not the number of a bit"));
+        ExprKind::Error
+    }
+
+    fn index(&mut self, base: Tree) -> Tree {
+        let bracket = self.here();
+        self.bump();
+        let start = base.expr.span;
+        let (mut list, mut height) = (Vec::new(), base.height);
+        loop {
+            let tree = self.binary(1);
+            height = height.max(tree.height);
+            list.push(tree.expr);
+            if !self.eat(Tok::Comma) {
+                break;
+            }
+        }
+        self.closing(Tok::RBracket, "]", bracket);
+        let span = self.since(start);
+        self.grown(Expr { kind: ExprKind::Index(Box::new(base.expr), list), span }, height)
+    }
+
+    fn primary(&mut self) -> Tree {
+        if let Some(literal) = self.literal() {
+            return Tree::leaf(literal);
+        }
+        let token = self.peek();
+        match token.kind {
+            Tok::Word => self.word(),
+            Tok::LParen => self.parenthesised(),
+            Tok::Direct => Tree::leaf(self.direct()),
+            Tok::Error => {
+                self.lost = true; // reported by the lexer
+                self.bump();
+                Tree::error(self.span_of(token))
+            }
+            _ => self.no_operand(),
+        }
+    }
+
+    fn parenthesised(&mut self) -> Tree {
+        let start = self.here();
+        self.bump();
+        let inner = self.binary(1);
+        if self.at(Tok::Assign) {
+            self.unsupported_here("an assignment inside of an expression");
+            self.lost = true;
+        }
+        self.closing(Tok::RParen, ")", start);
+        Tree { expr: Expr { span: self.since(start), ..inner.expr }, height: inner.height }
+    }
+
+    /// A direct address such as `%IX1.2`.
+    fn direct(&mut self) -> Expr {
+        let token = self.bump();
+        let span = self.span_of(token);
+        match address::direct(self.text_of(token), span) {
+            Ok(address) => Expr { kind: ExprKind::Direct(address), span },
+            Err(problem) => {
+                self.soft(problem_diag(problem, span));
+                error(span)
+            }
+        }
+    }
+
+    /// A name, TRUE, FALSE, or a keyword that is a function when a parenthesis follows.
+    fn word(&mut self) -> Tree {
+        let token = self.peek();
+        let span = self.span_of(token);
+        let kind = match token.kw {
+            Kw::True | Kw::False => {
+                self.bump();
+                return Tree::leaf(Expr { kind: ExprKind::Literal(Literal::Bool(token.kw == Kw::True)), span });
+            }
+            Kw::Null | Kw::Ref | Kw::This | Kw::Super if !self.is_used_as_name(token.kw) => {
+                self.unsupported_here(match token.kw {
+                    Kw::Null => "a reference (NULL)",
+                    Kw::Ref => "a reference (REF)",
+                    Kw::This => "object orientation (THIS)",
+                    _ => "object orientation (SUPER)",
+                });
+                self.bump();
+                self.eat(Tok::Caret);
+                ExprKind::Error
+            }
+            kw if !kw.is_reserved() || self.is_used_as_name(kw) => ExprKind::Name(self.name()),
+            kw if (is_function(kw) || kw.is_type()) && self.nth(1).kind == Tok::LParen => ExprKind::Name(self.bare_name()),
+            _ => return self.no_operand(),
+        };
+        Tree::leaf(Expr { kind, span })
+    }
+
+    /// The current word as written, without the checks for names.
+    fn bare_name(&mut self) -> Name {
+        let token = self.bump();
+        Name { text: self.text_of(token).to_owned(), span: self.span_of(token) }
+    }
+
+    fn no_operand(&mut self) -> Tree {
+        let span = self.here();
+        if self.at(Tok::Dot) && self.nth(1).kind == Tok::Int && self.nth(1).start == span.end {
+            let digits = self.text_of(self.nth(1));
+            let diag = Diag::new(Code::BadNumber, span.to(self.span_of(self.nth(1))), "a digit is missing before the point");
+            self.soft(diag.help(format!("write 0.{digits}")));
+            self.bump();
+            self.bump();
+            return Tree::error(self.since(span));
+        }
+        let diag = self.expected_diag("an expression");
+        self.error(match (self.prev().kind, self.kind()) {
+            (Tok::Eq, Tok::Lt) => diag.help("write <="),
+            (Tok::Eq, Tok::Gt) => diag.help("write >="),
+            (Tok::Gt, Tok::Lt) => diag.help("write <>"),
+            _ => diag,
+        });
+        Tree::error(span)
+    }
+}
+
+/// Keywords that are also functions: `AND(a, b)`.
+fn is_function(kw: Kw) -> bool {
+    matches!(kw, Kw::And | Kw::Or | Kw::Xor | Kw::Mod | Kw::Not)
 }

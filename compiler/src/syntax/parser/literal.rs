@@ -2,7 +2,7 @@
 //! From: IEC 61131-3 §6.3 (language reference §1.5 to §1.7).
 
 use super::cursor::Parser;
-use crate::syntax::ast::{Expr, ExprKind, Literal, Name};
+use crate::syntax::ast::{Expr, ExprKind, Literal, Name, UnaryOp};
 use crate::syntax::keyword::Kw;
 use crate::syntax::lexer::{Tok, Token};
 use crate::syntax::literal::{Problem, Read, number, string, time};
@@ -137,11 +137,17 @@ impl Parser<'_> {
     }
 }
 
-/// `-` directly before an untyped number is part of it, so that the smallest integer can be written.
-pub(super) fn fold_sign(operand: &Expr) -> Option<Literal> {
-    match &operand.kind {
-        ExprKind::Literal(Literal::Int { value, .. }) if *value >= 0 => Some(Literal::Int { value: -*value, based: false }),
-        ExprKind::Literal(Literal::Real(value)) if value.is_sign_positive() => Some(Literal::Real(-value)),
+/// A sign directly before an untyped number is part of it, so that the smallest integer can be written.
+pub(super) fn fold_sign(op: UnaryOp, operand: &Expr) -> Option<Literal> {
+    let ExprKind::Literal(literal) = &operand.kind else { return None };
+    let is_unsigned = match literal {
+        Literal::Int { value, .. } => *value >= 0,
+        Literal::Real(value) => value.is_sign_positive(),
+        _ => false,
+    };
+    match op {
+        UnaryOp::Neg if is_unsigned => Some(negate(literal.clone())),
+        UnaryOp::Plus if is_unsigned => Some(literal.clone()),
         _ => None,
     }
 }

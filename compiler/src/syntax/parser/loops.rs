@@ -14,16 +14,11 @@ impl Parser<'_> {
         self.open.push(Kw::EndCase);
         let selector = self.condition();
         self.expect_part(Kw::Of, opener, "CASE");
-        let mut arms = Vec::new();
-        while !self.at_end() && self.is_label() {
-            arms.push(self.case_arm());
-        }
+        let mut arms = self.case_arms();
         if arms.is_empty() && !self.kw().ends_statements() && !self.at_end() {
             self.unlabelled();
             self.statements(true);
-            while !self.at_end() && self.is_label() {
-                arms.push(self.case_arm());
-            }
+            arms = self.case_arms();
         }
         let otherwise = self.eat_kw(Kw::Else).then(|| {
             self.eat(Tok::Colon); // ELSE: (vendor)
@@ -38,6 +33,20 @@ impl Parser<'_> {
         self.soft(diag.help("write for example 1: or 2, 4..6: before the statements"));
     }
 
+    /// A label is a place to go on from, whatever was wrong before it; and each arm takes something.
+    fn case_arms(&mut self) -> Vec<CaseArm> {
+        let mut arms = Vec::new();
+        while !self.at_end() && self.is_label() {
+            self.found_place();
+            let before = self.pos;
+            arms.push(self.case_arm());
+            if self.pos == before {
+                self.bump();
+            }
+        }
+        arms
+    }
+
     fn case_arm(&mut self) -> CaseArm {
         let mut labels = Vec::new();
         loop {
@@ -46,13 +55,8 @@ impl Parser<'_> {
                 break;
             }
         }
-        if !self.lost && !self.eat(Tok::Colon) {
-            if self.at(Tok::Word) || self.is_first_on_line() {
-                let diag = self.missing_diag("`:`").message("expected `:` behind the CASE label");
-                self.soft(diag);
-            } else {
-                self.expected("`:` behind the CASE label");
-            }
+        if !self.lost {
+            self.expect(Tok::Colon, "`:` behind the CASE label");
         }
         if self.lost {
             self.skip_label();
@@ -80,7 +84,7 @@ impl Parser<'_> {
     /// True if a CASE label stands here and no statement: a literal, or a name (with members) and what no statement has there.
     pub(super) fn is_label(&self) -> bool {
         match self.kind() {
-            Tok::Int | Tok::Based | Tok::TypePrefix | Tok::Minus | Tok::Plus => true,
+            Tok::Int | Tok::Based | Tok::TypePrefix | Tok::Minus | Tok::Plus | Tok::LParen => true,
             Tok::String | Tok::WString | Tok::Duration | Tok::Date | Tok::Real | Tok::BadNumber => true,
             Tok::Word if matches!(self.kw(), Kw::True | Kw::False | Kw::Not) => true,
             Tok::Word if self.kw().ends_statements() || self.kw().opens_statement() => false,
@@ -133,7 +137,12 @@ impl Parser<'_> {
         }
         if !self.eat_kw(Kw::To) {
             let diag = self.expected_diag("TO and the last value").also(opener, "this FOR needs it");
-            self.error(diag);
+            if self.at(Tok::Semi) {
+                self.error(diag.help("write for example FOR i := 0 TO 9 DO"));
+                self.skip_line_to(Kw::Do);
+            } else {
+                self.error(diag);
+            }
             return super::expr::error(self.here());
         }
         self.expr()

@@ -2,6 +2,7 @@
 //! Never fails, never recurses without counting (see `cursor`), takes time linear in the text.
 //! One mistake gives one message: after it the parser is silent until it has found its place again.
 
+mod call;
 mod config;
 mod cursor;
 mod decl;
@@ -9,8 +10,6 @@ mod expr;
 mod init;
 mod literal;
 mod loops;
-mod operand;
-mod postfix;
 mod recover;
 mod stmt;
 mod types;

@@ -63,8 +63,22 @@ impl Parser<'_> {
             }
             self.bump();
         }
-        let _ = self.eat_kw(kw) || self.eat(Tok::Semi);
+        if self.eat_kw(kw) || !self.eat(Tok::Semi) {
+            self.found_place();
+            return;
+        }
         self.found_place();
+    }
+
+    /// Skips to `kw` if it stands near on this line, also behind a `;`: the head of a loop as other languages write it.
+    pub(super) fn skip_line_to(&mut self, kw: Kw) {
+        const NEAR: usize = 40;
+        let start = self.peek().start as usize;
+        let is_here = |end: u32| self.text.get(start..end as usize).is_some_and(|t| !t.contains(['\n', '\r']));
+        let found = (0..NEAR).find(|&n| self.nth(n).kw == kw);
+        if let Some(n) = found.filter(|&n| is_here(self.nth(n).end)) {
+            self.pos += n;
+        }
     }
 
     /// The keyword between the parts of a statement (THEN, DO, OF, TO).
@@ -75,6 +89,12 @@ impl Parser<'_> {
         if self.eat_kw(kw) {
             return;
         }
+        if matches!(self.kw(), Kw::Then | Kw::Do | Kw::Of) {
+            let diag = self.expected_diag(kw.text()).also(opener, format!("this {opener_name} needs it"));
+            self.soft(diag.help(format!("write {}", kw.text())));
+            self.bump();
+            return;
+        }
         let diag = if self.is_first_on_line() || self.at(Tok::Word) {
             self.missing_diag(kw.text())
         } else {
@@ -82,7 +102,7 @@ impl Parser<'_> {
         };
         let diag = diag.also(opener, format!("this {opener_name} needs it"));
         if self.is_first_on_line() || self.at(Tok::Word) || self.kw().ends_statements() {
-            self.soft(diag);
+            self.soft(diag.help(format!("write {} before the first statement inside", kw.text())));
         } else {
             self.error(diag);
             self.skip_to_kw(kw);
@@ -145,18 +165,16 @@ impl Parser<'_> {
         self.found_place();
     }
 
-    /// Skips statements to the end of the innermost open one, or to the end of the unit.
+    /// Skips statements to the next part or the end of the innermost open one, or to the end of the unit.
     pub(super) fn skip_nested(&mut self) {
         let mut depth = 0u32;
         while !self.at_end() {
             let kw = self.kw();
-            if kw.ends_statement() {
-                if depth == 0 {
-                    break;
-                }
-                depth -= 1;
-            } else if depth == 0 && matches!(kw, Kw::Else | Kw::Elsif | Kw::Until) {
+            if depth == 0 && (kw.ends_statement() || matches!(kw, Kw::Else | Kw::Elsif | Kw::Until)) {
                 break;
+            }
+            if kw.ends_statement() {
+                depth -= 1;
             } else if kw.opens_declaration() || kw.is_section() || kw.ends_declaration() {
                 self.unwinding = true;
                 break;
@@ -174,12 +192,14 @@ impl Parser<'_> {
 fn ends_skipped(open: Kw, kw: Kw) -> bool {
     match open {
         Kw::Namespace => false,
-        Kw::Resource => kw.opens_declaration() && kw != Kw::Program || kw == Kw::EndProgram,
         Kw::Class | Kw::Interface | Kw::Function | Kw::FunctionBlock | Kw::Program => {
             matches!(
                 kw,
                 Kw::Function | Kw::FunctionBlock | Kw::Program | Kw::Class | Kw::Interface | Kw::Configuration | Kw::Type
             )
+        }
+        Kw::Resource => {
+            matches!(kw, Kw::Function | Kw::FunctionBlock | Kw::Type | Kw::Class | Kw::Interface | Kw::Configuration)
         }
         Kw::VarAccess | Kw::VarConfig | Kw::VarStat | Kw::VarInst => kw.ends_declaration() || kw.is_section(),
         _ => kw.opens_declaration() || matches!(kw, Kw::EndFunctionBlock | Kw::EndProgram | Kw::EndFunction | Kw::EndClass),

@@ -74,13 +74,13 @@ impl Parser<'_> {
     /// A statement with its `;`.
     fn statement(&mut self) -> Stmt {
         let start = self.here();
-        if !self.enter_statement() {
-            self.leave_statement();
+        if !self.enter() {
+            self.leave();
             self.skip_nested();
             return Stmt { kind: StmtKind::Error, span: start };
         }
         let kind = self.statement_kind();
-        self.leave_statement();
+        self.leave();
         let span = self.since(start);
         if !matches!(kind, StmtKind::Empty) {
             self.terminator();
@@ -143,7 +143,7 @@ impl Parser<'_> {
         if self.lost {
             return self.skip_statement();
         }
-        if self.eat(Tok::Semi) || self.prev().kw.ends_statement() || self.unwinding {
+        if self.eat(Tok::Semi) || self.prev().kw.ends_statement() {
             return;
         }
         if self.prev().kind == Tok::Colon {
@@ -282,12 +282,38 @@ impl Parser<'_> {
         while let Some(elsif) = self.elsif() {
             branches.push(self.branch(elsif, "ELSIF"));
         }
-        let has_else = self.eat_kw(Kw::Else);
-        let is_else_if = has_else && self.kw() == Kw::If && !self.is_first_on_line();
-        let otherwise = if has_else { self.statements(false) } else { Vec::new() };
-        let help = is_else_if.then_some("ELSE IF opens a second IF with an END_IF of its own; write ELSIF");
+        let is_else_if = self.kw() == Kw::Else && self.nth(1).kw == Kw::If;
+        let otherwise = self.else_branch();
+        let help = is_else_if.then_some("ELSE IF opens a second IF with an END_IF of its own; ELSIF does not");
         self.close(Kw::EndIf, opener, "IF", help);
         StmtKind::If { branches, otherwise }
+    }
+
+    /// ELSE and its statements. A second ELSE, or an ELSIF behind it, is reported unless an outer statement can have it.
+    fn else_branch(&mut self) -> Vec<Stmt> {
+        let start = self.here();
+        if !self.eat_kw(Kw::Else) {
+            return Vec::new();
+        }
+        let mut list = self.statements(false);
+        while matches!(self.kw(), Kw::Else | Kw::Elsif) && !self.is_wanted_outside() {
+            let diag = self.expected_diag("END_IF").also(start, "the ELSE of this IF is here");
+            self.soft(diag.help("ELSE comes once, behind all ELSIF"));
+            let part = self.here();
+            if self.bump().kw == Kw::Elsif {
+                self.branch(part, "ELSIF");
+            } else {
+                list.append(&mut self.statements(false));
+            }
+        }
+        list
+    }
+
+    /// True if a statement around the innermost open one can have the current ELSE or ELSIF.
+    fn is_wanted_outside(&self) -> bool {
+        let outer = self.open.len().saturating_sub(1);
+        let has_else = |kw: &Kw| *kw == Kw::EndIf || *kw == Kw::EndCase && self.kw() == Kw::Else;
+        self.open.iter().take(outer).any(has_else)
     }
 
     /// Takes ELSIF, also misspelt.

@@ -35,13 +35,15 @@ impl Parser<'_> {
         let name = self.declared_name("the name of a type")?;
         if self.kw() == Kw::Extends {
             self.unsupported_here("EXTENDS");
+            self.bump();
+            self.eat(Tok::Word);
         }
         if !self.colon("the type") {
             return None;
         }
         let body = self.type_body();
         let init = self.optional_init();
-        if !self.lost && !self.eat(Tok::Semi) && self.prev().kw != Kw::EndStruct {
+        if !self.lost && !self.eat(Tok::Semi) && !matches!(self.prev().kw, Kw::EndStruct | Kw::EndUnion) {
             self.missing_semicolon("this type");
         }
         Some(TypeDecl { name, body, init })
@@ -55,13 +57,24 @@ impl Parser<'_> {
         }
     }
 
-    /// A colon; `:=` and `=` are understood as one.
+    /// A colon. Where a type follows, a missing one is reported and understood.
     pub(super) fn colon(&mut self, before: &str) -> bool {
         if self.eat(Tok::Colon) {
             return true;
         }
-        self.expected(&format!("`:` and {before}"));
+        let diag = self.expected_diag(&format!("`:` and {before}"));
+        if self.starts_type() {
+            self.soft(diag.help(format!("write : before {before}")));
+            return true;
+        }
+        self.error(diag);
         false
+    }
+
+    /// True at what can only be a type.
+    pub(super) fn starts_type(&self) -> bool {
+        let kw = self.kw();
+        kw.is_type() || matches!(kw, Kw::Array | Kw::Struct) || self.at(Tok::LParen)
     }
 
     /// `:= value`, if it stands here.
@@ -115,8 +128,8 @@ impl Parser<'_> {
     }
 
     fn named(&mut self) -> TypeRefKind {
-        let is_type = self.kw().is_type();
-        let name = self.bare_name();
+        let token = self.bump();
+        let name = Name { text: self.text_of(token).to_owned(), span: self.span_of(token) };
         if self.at(Tok::Dot) {
             self.unsupported_here("a name in a namespace");
             while self.eat(Tok::Dot) && self.at(Tok::Word) {
@@ -129,7 +142,7 @@ impl Parser<'_> {
         }
         let is_list = self.nth(1).kind == Tok::Word && matches!(self.nth(2).kind, Tok::Assign | Tok::Comma | Tok::RParen);
         match is_list {
-            true if is_type => self.enumeration(Some(name)),
+            true if token.kw.is_type() => self.enumeration(Some(name)),
             true => {
                 self.unsupported_here("initialising an instance with arguments");
                 self.connections();
@@ -150,9 +163,10 @@ impl Parser<'_> {
     /// `low..high`.
     fn range(&mut self) -> (Expr, Expr) {
         let low = self.expr();
-        if self.lost || !self.expect(Tok::Range, "`..` and the upper bound") {
-            let high = super::expr::error(self.here());
-            return (low, high);
+        if self.lost || !self.eat(Tok::Range) {
+            let diag = self.expected_diag("`..` and the upper bound");
+            self.error(diag.help("write both bounds, for example 0..9"));
+            return (low, super::expr::error(self.here()));
         }
         (low, self.expr())
     }
@@ -168,10 +182,12 @@ impl Parser<'_> {
         if !self.expect(Tok::LBracket, "`[` and the bounds of the array") {
             return TypeRefKind::Error;
         }
-        let mut dims = Vec::new();
+        let (mut dims, mut reported) = (Vec::new(), false);
         loop {
             if self.at(Tok::Star) {
-                self.unsupported_here("an array of variable length");
+                if !std::mem::replace(&mut reported, true) {
+                    self.unsupported_here("an array of variable length");
+                }
                 self.bump();
             } else {
                 dims.push(self.range());
@@ -205,10 +221,13 @@ impl Parser<'_> {
             _ => return TypeRefKind::String { wide, capacity: None },
         };
         self.bump();
-        if self.eat(Tok::Star) {
+        let capacity = if self.at(Tok::Star) {
             self.unsupported_here("a string of variable length");
-        }
-        let capacity = Some(Box::new(self.expr()));
+            self.bump();
+            None
+        } else {
+            Some(Box::new(self.expr()))
+        };
         self.closing(close, text, opener);
         TypeRefKind::String { wide, capacity }
     }
@@ -227,10 +246,15 @@ impl Parser<'_> {
         }
         self.closing(Tok::RParen, ")", paren);
         let base = match base {
-            None if self.kw().is_type() && !self.lost => Some(self.bare_name()),
+            None if self.kw().is_type() && !self.lost => Some(self.plain_type_name()),
             base => base,
         };
         TypeRefKind::Enum(EnumDecl { base, values, span: self.since(start) })
+    }
+
+    fn plain_type_name(&mut self) -> Name {
+        let token = self.bump();
+        Name { text: self.text_of(token).to_owned(), span: self.span_of(token) }
     }
 
     fn structure(&mut self) -> TypeRefKind {
@@ -310,7 +334,8 @@ impl Parser<'_> {
             let diag = diag.message(format!("expected {}", want.text()));
             self.soft(diag.also(opener, format!("the {opener_name} is opened here")));
         }
-        if found.ends_declaration() && found != Kw::EndVar && is_unit_end(found) == is_unit_end(want) {
+        let is_outer = want == Kw::EndResource && found == Kw::EndConfiguration;
+        if found.ends_declaration() && found != Kw::EndVar && !is_outer && is_unit_end(found) == is_unit_end(want) {
             self.bump();
             self.eat(Tok::Semi);
         }

@@ -81,10 +81,11 @@ impl Parser<'_> {
         }
     }
 
-    /// `LD x`, and no `;`, `:=` or the like behind the first word.
+    /// `LD x` or `label: LD x`, and no `;`, `:=` or the like behind the first word.
     fn is_instruction(&self) -> bool {
-        let word = self.text_of(self.peek());
-        let next = self.nth(1).kind;
+        let first = if self.nth(1).kind == Tok::Colon { 2 } else { 0 };
+        let word = self.text_of(self.nth(first));
+        let next = self.nth(first + 1).kind;
         let operand =
             matches!(next, Tok::Word | Tok::Int | Tok::Real | Tok::Based | Tok::Direct | Tok::Duration | Tok::TypePrefix);
         self.at(Tok::Word) && operand && INSTRUCTIONS.iter().any(|i| i.eq_ignore_ascii_case(word))

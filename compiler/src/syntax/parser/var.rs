@@ -92,22 +92,21 @@ impl Parser<'_> {
         if self.kw().opens_statement() {
             return !matches!(next, Tok::Colon | Tok::Comma) && self.nth(1).kw != Kw::At;
         }
-        if self.at(Tok::Word) && next == Tok::Assign {
-            return !self.end_var_follows();
+        if !self.at(Tok::Word) {
+            return false;
         }
-        self.at(Tok::Word) && matches!(next, Tok::Dot | Tok::LBracket | Tok::LParen)
+        matches!(next, Tok::Dot | Tok::LBracket | Tok::LParen) || next == Tok::Assign && !self.is_closed()
     }
 
-    /// True if this section is closed. Remembers where, so that many mistakes in one section do not look for it again and again.
-    fn end_var_follows(&mut self) -> bool {
-        if self.pos < self.end_var {
-            return true;
+    /// True if END_VAR is the next keyword of a section or declaration. Looks at every token once.
+    fn is_closed(&mut self) -> bool {
+        let (from, to) = self.section_ahead;
+        if !(from..=to).contains(&self.pos) || to == 0 {
+            let ends = |kw: Kw| kw.is_section() || kw.opens_declaration() || kw.ends_declaration() && kw != Kw::EndStruct;
+            let ahead = self.tokens.list.iter().skip(self.pos).take_while(|t| !ends(t.kw)).count();
+            self.section_ahead = (self.pos, self.pos + ahead);
         }
-        let ends = |kw: Kw| kw.is_section() || kw.ends_declaration() || kw.opens_declaration();
-        let found = self.tokens.list[self.pos..].iter().position(|t| ends(t.kw));
-        let found = found.filter(|&i| self.tokens.list[self.pos + i].kw == Kw::EndVar);
-        self.end_var = found.map_or(0, |i| self.pos + i);
-        found.is_some()
+        self.tokens.list.get(self.section_ahead.1).is_some_and(|t| t.kw == Kw::EndVar)
     }
 
     /// A declaration with its `;`. On a mistake the parser has skipped to the next one.
@@ -123,18 +122,14 @@ impl Parser<'_> {
 
     fn var_decl_inner(&mut self) -> Option<VarDecl> {
         let start = self.here();
-        if self.kw().is_type() && self.nth(1).kind == Tok::Word && self.nth(1).kw != Kw::At {
-            let ty = self.bare_name();
-            self.no_colon(&[ty]);
-            return None;
-        }
         let names = if self.kw() == Kw::At { Vec::new() } else { self.names()? };
         let at = if self.eat_kw(Kw::At) { self.located()? } else { None };
-        if !self.at(Tok::Colon) {
+        if !self.eat(Tok::Colon) {
             self.no_colon(&names);
-            return None;
+            if self.lost {
+                return None;
+            }
         }
-        self.bump();
         let ty = self.type_ref();
         let edge = self.edge();
         let init = self.optional_init();
@@ -162,7 +157,7 @@ impl Parser<'_> {
         let span = self.span_of(token);
         let address = match address::direct(self.text_of(token), span) {
             Ok(address) => Some(address),
-            Err(_) if address::is_relative(self.text_of(token)) => {
+            Err(_) if address::partial(self.text_of(token)).is_ok() => {
                 self.unsupported_here("a relative address in a structure");
                 None
             }
@@ -175,6 +170,7 @@ impl Parser<'_> {
         Some(address)
     }
 
+    /// A colon is missing behind the names; not lost afterwards if a type follows.
     fn no_colon(&mut self, names: &[Name]) {
         let name = names.first().map_or("x", |n| n.text.as_str());
         let diag = self.expected_diag("`:` and a type");
@@ -182,6 +178,10 @@ impl Parser<'_> {
             Tok::Assign => diag.help(format!("write {name} : INT := ...; or END_VAR above if this is a statement")),
             Tok::Word if names.len() == 1 && self.kw() == Kw::None => {
                 diag.help(format!("the name comes first: {} : {name};", self.text_of(self.peek())))
+            }
+            _ if self.starts_type() && !self.at(Tok::LParen) => {
+                let ty = self.text_of(self.peek());
+                return self.soft(diag.help(format!("write {name} : {ty}"))); // and goes on as if it stood there
             }
             _ => diag.help(format!("write {name} : INT;")),
         };

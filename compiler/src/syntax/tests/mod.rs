@@ -1,18 +1,21 @@
 //! Tests of text to tree: cases are texts, trees are printed as s-expressions.
 
-mod decls;
-mod exprs;
-mod lexis;
+mod declarations;
+mod expressions;
+mod fuzz;
 mod limits;
+mod literals;
 mod mistakes;
+mod pages;
 mod print;
 mod recovery;
 mod smoke;
-mod stmts;
+mod statements;
+mod unsupported;
 
-use super::ast::File;
+use super::ast::{File, Item};
 use takt_base::Sources;
-use takt_base::diag::{Diag, Sink, render};
+use takt_base::diag::{Code, Diag, Severity, Sink, render};
 
 /// Parses a text named `a.st`.
 fn parse(text: &str) -> (File, Vec<Diag>, Sources) {
