@@ -8,4 +8,5 @@ pub mod mir_gen;
 pub mod mir_run;
 pub mod plc;
 pub mod rng;
+pub mod run_time;
 pub mod workloads;

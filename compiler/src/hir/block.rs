@@ -21,7 +21,8 @@ impl Builder<'_> {
         Some(self.instance_call(callee, args, span))
     }
 
-    fn names_variable(&self, name: &ast::Name) -> bool {
+    /// True if a call of this name is one of a variable: an instance, or a mistake.
+    pub fn names_variable(&self, name: &ast::Name) -> bool {
         match (self.local(&name.key()), self.scope.pou) {
             (Some(Local::Var(v)), Some(p)) => self.hir.pous[p].result != Some(v),
             (Some(_), _) => true,

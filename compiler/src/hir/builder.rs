@@ -10,7 +10,7 @@ use takt_image::types::{Record, Type};
 use takt_image::{Elementary, TypeId};
 
 /// Nesting of expressions, statements and types together.
-const DEPTH_MAX: u32 = 400;
+const DEPTH_MAX: u32 = 700;
 /// Scalars in all initial values together that are not zero: keeps the compiler's memory within bounds.
 const LEAVES_MAX: usize = 1 << 22;
 

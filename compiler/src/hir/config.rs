@@ -18,6 +18,8 @@ const DEFAULT_TASK: &str = "Main";
 const BACKGROUND_TASK: &str = "Background";
 /// Lowest priority.
 const PRIORITY_MAX: i128 = 65_535;
+/// Most tasks of a resource.
+const TASKS_MAX: usize = 64;
 
 impl<'a> Builder<'a> {
     /// Makes the tasks.
@@ -40,9 +42,22 @@ impl<'a> Builder<'a> {
     fn default_configuration(&mut self) {
         let mine = self.hir.pous.enumerate().filter(|(id, p)| p.kind == PouKind::Program && !self.symbols.pous[*id].library);
         let programs: Vec<_> = mine.map(|(pou, p)| instance(p.name.clone(), pou)).collect();
-        if !programs.is_empty() {
+        for program in &programs {
+            let at = self.symbols.pous[program.pou].decl.name.span;
+            self.check_bound(program.pou, at);
+        }
+        if programs.is_empty() {
+            self.no_program();
+        } else {
             let interval = Some(DEFAULT_INTERVAL);
             self.hir.tasks.push(Task { name: DEFAULT_TASK.to_owned(), priority: 0, interval, single: None, programs });
+        }
+    }
+
+    fn no_program(&mut self) {
+        if let Some(at) = self.symbols.somewhere {
+            let help = "write PROGRAM Main ... END_PROGRAM";
+            self.report(Diag::new(Code::NoProgram, at, "no PROGRAM in any file").help(help));
         }
     }
 
@@ -54,12 +69,23 @@ impl<'a> Builder<'a> {
                 self.hir.tasks.push(task);
             }
         }
+        self.check_task_count(resource);
         let mut names = HashMap::new();
         for decl in &resource.programs {
             let program = self.program(decl);
             if let (Some(program), true) = (program, self.unique(&mut names, &decl.name)) {
                 self.assign_task(decl, program);
             }
+        }
+        if resource.programs.is_empty() {
+            self.no_program();
+        }
+    }
+
+    fn check_task_count(&mut self, resource: &ast::Resource) {
+        if let Some(task) = resource.tasks.get(TASKS_MAX) {
+            let help = format!("a resource has at most {TASKS_MAX} tasks");
+            self.report(Diag::new(Code::BadTask, task.name.span, "one task too many").help(help));
         }
     }
 
@@ -72,20 +98,25 @@ impl<'a> Builder<'a> {
     }
 
     fn task(&mut self, decl: &ast::TaskDecl) -> Task {
-        let interval = decl.interval.as_ref().and_then(|e| self.interval(e));
+        let interval = decl.interval.as_ref().map_or(Some(Nanos::ZERO), |e| self.interval(e));
         let priority = decl.priority.as_ref().map_or(0, |e| self.priority(e));
         let single = decl.single.as_ref().and_then(|e| self.trigger(e));
+        if interval == Some(Nanos::ZERO) && decl.single.is_none() {
+            let help = "give it a period, INTERVAL := T#10ms, or a trigger, SINGLE := variable";
+            self.report(Diag::new(Code::BadTask, decl.name.span, "nothing ever starts it").help(help));
+        }
+        let interval = interval.filter(|i| *i > Nanos::ZERO);
         Task { name: decl.name.text.clone(), priority, interval, single, programs: Vec::new() }
     }
 
-    /// `None` for no period at all.
+    /// The period, zero for none; `None` if it was wrong.
     fn interval(&mut self, e: &ast::Expr) -> Option<Nanos> {
         let time = self.elem(Elementary::Time);
         let ns = self.const_of(e, time)?;
         if ns < 0 {
             self.report(Diag::new(Code::BadTask, e.span, "a negative interval").help("write for example INTERVAL := T#10ms"));
         }
-        i64::try_from(ns).ok().filter(|ns| *ns > 0).map(Nanos)
+        i64::try_from(ns).ok().filter(|ns| *ns >= 0).map(Nanos)
     }
 
     fn priority(&mut self, e: &ast::Expr) -> u32 {
@@ -124,11 +155,22 @@ impl<'a> Builder<'a> {
                 return None;
             }
         };
+        self.check_bound(pou, decl.name.span);
         let mut program = instance(decl.name.text.clone(), pou);
         for arg in &decl.connections {
             self.connect(&mut program, arg, decl.name.span);
         }
         Some(program)
+    }
+
+    /// A task binds nothing to a VAR_IN_OUT (§4.7).
+    fn check_bound(&mut self, pou: PouId, at: Span) {
+        let unbound = self.hir.pous[pou].vars.iter().find(|v| v.role == Role::InOut);
+        if let Some(var) = unbound {
+            let (label, declared) = (format!("a task can't bind `{}`", var.name), var.span);
+            let help = "use VAR_EXTERNAL, or VAR_INPUT and VAR_OUTPUT";
+            self.report(Diag::new(Code::MissingInOut, at, label).also(declared, "declared").help(help));
+        }
     }
 
     /// `in := global`, `out => global`.

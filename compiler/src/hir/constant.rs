@@ -155,9 +155,8 @@ fn real_arithmetic(op: BinaryOp, a: f64, b: f64) -> Option<Result<f64, FoldError
     })
 }
 
-/// `a` to an integer power by repeated multiplication; `None` for other exponents.
-pub(super) fn power(a: f64, exponent: i128) -> Option<f64> {
-    let n = i32::try_from(exponent).ok().filter(|n| n.unsigned_abs() <= 1024)?;
-    let product = (0..n.unsigned_abs()).fold(1.0, |p, _| p * a);
-    Some(if n < 0 { 1.0 / product } else { product })
+/// The value of the bits that the type stores.
+pub(super) fn low_bits(value: i128, e: Elementary) -> i128 {
+    let shift = 128 - e.bits();
+    if e.is_signed_storage() { (value << shift) >> shift } else { (((value as u128) << shift) >> shift) as i128 }
 }

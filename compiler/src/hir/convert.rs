@@ -299,10 +299,10 @@ impl Builder<'_> {
             Conversion::Integer | Conversion::ZeroExtend | Conversion::Subrange => {
                 let value = constant::int(c)?;
                 let bits = match how {
-                    Conversion::ZeroExtend => truncate(value, source?, false),
+                    Conversion::ZeroExtend => value & ((1 << source?.bits()) - 1),
                     _ => value,
                 };
-                Const::Int(truncate(bits, target?, target?.is_signed_storage()))
+                Const::Int(constant::low_bits(bits, target?))
             }
             Conversion::NonZero => Const::Int(i128::from(!constant::is_zero(c) && *c != Const::Real(-0.0))),
             Conversion::LowBit => Const::Int(constant::int(c)? & 1),
@@ -331,11 +331,6 @@ impl Builder<'_> {
             _ => Some(c.clone()),
         }
     }
-}
-
-fn truncate(value: i128, e: Elementary, signed: bool) -> i128 {
-    let shift = 128 - e.bits();
-    if signed { (value << shift) >> shift } else { (((value as u128) << shift) >> shift) as i128 }
 }
 
 fn fold_bits(c: &Const, from: Elementary, to: Elementary) -> Option<Const> {

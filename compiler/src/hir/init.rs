@@ -74,14 +74,20 @@ impl Builder<'_> {
     /// Elements in memory order; `sizes` are the lengths of the dimensions.
     fn initial_array(&mut self, list: &[ArrayInit], element: TypeId, sizes: &[usize], default: &Const, span: Span) -> Const {
         let count = sizes.iter().fold(1usize, |n, s| n.saturating_mul(*s));
-        let mut fill =
-            Fill { parts: Vec::new(), room: count, inner: sizes.get(1..).unwrap_or(&[]).to_vec(), element, surplus: None };
+        let mut fill = Fill {
+            parts: Vec::new(),
+            room: count,
+            inner: sizes.get(1..).unwrap_or(&[]).to_vec(),
+            element,
+            surplus: None,
+            cut: false,
+        };
         for item in list {
             self.fill(&mut fill, item, default);
         }
         if let Some(span) = fill.surplus {
             self.warn_count(span, format!("only {count} elements"), "the surplus is ignored");
-        } else if fill.parts.len() < count {
+        } else if fill.parts.len() < count && !fill.cut {
             let label = format!("{} of {count} elements", fill.parts.len());
             self.warn_count(span, label, "the others keep their default; write n() for n of these");
         }
@@ -109,16 +115,30 @@ impl Builder<'_> {
 
     fn fill(&mut self, fill: &mut Fill, item: &ArrayInit, default: &Const) {
         match item {
-            ArrayInit::One(init) => self.fill_one(fill, init, default),
-            ArrayInit::Repeat(times, list) => {
-                let Some(n) = self.const_int(times) else { return };
-                let Ok(n) = usize::try_from(n) else {
-                    self.error(Code::OutOfRange, times.span, n.to_string());
-                    return;
-                };
-                self.fill_repeat(fill, n, list, default, times.span);
-            }
+            ArrayInit::One(init) => match self.named_repeat(init) {
+                Some((times, list)) => self.fill_times(fill, times, &list, default),
+                None => self.fill_one(fill, init, default),
+            },
+            ArrayInit::Repeat(times, list) => self.fill_times(fill, times, list, default),
         }
+    }
+
+    /// `N(0, 1)` with a constant N, which looks like a call.
+    fn named_repeat<'t>(&self, init: &'t Init) -> Option<(&'t ast::Expr, Vec<Init>)> {
+        let Init::Expr(ast::Expr { kind: ast::ExprKind::Call { callee, args }, .. }) = init else { return None };
+        let ast::ExprKind::Name(name) = &callee.kind else { return None };
+        let value = |a: &ast::Arg| if let ast::Arg::Positional(e) = a { Some(Init::Expr(e.clone())) } else { None };
+        let list: Option<Vec<Init>> = args.iter().map(value).collect();
+        self.names_variable(name).then_some(callee).zip(list).map(|(callee, list)| (&**callee, list))
+    }
+
+    fn fill_times(&mut self, fill: &mut Fill, times: &ast::Expr, list: &[Init], default: &Const) {
+        match self.const_int(times).map(usize::try_from) {
+            Some(Ok(n)) => return self.fill_repeat(fill, n, list, default, times.span),
+            Some(Err(_)) => self.error(Code::OutOfRange, times.span, "a negative number of elements"),
+            None => {}
+        }
+        fill.cut = true;
     }
 
     fn fill_repeat(&mut self, fill: &mut Fill, n: usize, list: &[Init], default: &Const, span: Span) {
@@ -130,6 +150,8 @@ impl Builder<'_> {
             }
             if self.charge(kept, span) {
                 (0..kept).for_each(|_| fill.push(default_element(default, fill.parts.len()), span));
+            } else {
+                fill.cut = true;
             }
             return;
         }
@@ -144,6 +166,8 @@ impl Builder<'_> {
         } else if !once.is_empty() && self.charge(leaves.saturating_mul(times), span) {
             let repeated = once.iter().cycle().take(once.len().saturating_mul(times));
             repeated.for_each(|c| fill.push(c.clone(), span));
+        } else {
+            fill.cut = true;
         }
     }
 
@@ -171,7 +195,7 @@ impl Builder<'_> {
         match self.initial_array(list, fill.element, &inner, &default, span) {
             Const::Aggregate(parts) => parts.into_iter().for_each(|c| fill.push(c, span)),
             _ if self.charge(row, span) => (0..row.min(fill.room + 1)).for_each(|_| fill.push(Const::Zero, span)),
-            _ => {}
+            _ => fill.cut = true,
         }
     }
 
@@ -212,6 +236,8 @@ struct Fill {
     inner: Vec<usize>,
     element: TypeId,
     surplus: Option<Span>,
+    /// Something is missing that has been reported.
+    cut: bool,
 }
 
 impl Fill {

@@ -23,6 +23,9 @@ mod symbols;
 mod types;
 mod unit;
 
+#[cfg(test)]
+mod tests;
+
 use crate::syntax::ast;
 use builder::Builder;
 pub use config::DEFAULT_INTERVAL;

@@ -1,6 +1,7 @@
 //! Conversion functions: `INT_TO_REAL`, `TO_REAL`, `TRUNC_INT` (library reference §2).
 
 use crate::hir::builder::Builder;
+use crate::hir::constant::{self, FoldError};
 use crate::hir::convert::Operand;
 use crate::hir::model::*;
 use takt_base::{Code, Diag, Span};
@@ -84,11 +85,14 @@ impl Builder<'_> {
             return arg;
         }
         if let Some(name) = native_conversion(from, to).filter(|_| !truncate) {
-            return Expr { kind: ExprKind::Native { name, args: vec![arg] }, ty, span };
+            return self.native(name, vec![arg], ty, span).expr;
         }
         match (from, to) {
             (ConversionType::Elementary(a), ConversionType::Elementary(b)) if truncate && a.is_real() && b.is_int() => {
-                Expr { kind: ExprKind::Intrinsic(Intrinsic::Trunc, vec![arg]), ty, span }
+                self.intrinsic(Intrinsic::Trunc, vec![arg], ty, span).expr
+            }
+            (ConversionType::Elementary(a), ConversionType::Elementary(b)) if loses(&arg, a, b) => {
+                self.fold_error(FoldError::Overflow, span).expr
             }
             (ConversionType::Elementary(a), ConversionType::Elementary(b)) => self.wrap(inline(a, b), arg, ty),
             _ => self.wrap(Conversion::String, arg, ty),
@@ -106,6 +110,17 @@ impl Builder<'_> {
             ConversionType::WString => Type::WString { capacity },
         };
         self.hir.types.intern(ty)
+    }
+}
+
+/// True for a constant number that the target can't hold; bits may be cut.
+fn loses(arg: &Expr, from: Elementary, to: Elementary) -> bool {
+    let ExprKind::Const(c) = &arg.kind else { return false };
+    match (constant::int(c), constant::real(c)) {
+        (Some(value), _) if from.is_int() && to.is_int() => constant::checked(to, value).is_err(),
+        (_, Some(value)) if to.is_int() => super::fold::real_to_int(value.round_ties_even(), to).is_err(),
+        (_, Some(value)) if to == Elementary::Real => value.is_finite() && (value as f32).is_infinite(),
+        _ => false,
     }
 }
 

@@ -3,6 +3,7 @@
 
 mod arguments;
 mod conversion;
+mod fold;
 mod standard;
 mod user;
 

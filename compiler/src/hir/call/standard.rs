@@ -1,15 +1,20 @@
 //! Calls of standard functions: arguments in order, the common type T of those that share it, result type (library reference §1, §13).
 
 use crate::hir::builder::Builder;
-use crate::hir::convert::{Flex, Operand};
+use crate::hir::convert::{Flex, Operand, constant_expr};
 use crate::hir::model::*;
 use crate::hir::types::STRING_MAX;
 use crate::syntax::ast::{self, BinaryOp};
 use takt_base::{Code, Diag, Span};
 use takt_image::types::Type;
-use takt_image::{Elementary, Generic, TypeId};
-use takt_stdlib::Found;
+use takt_image::{Elementary, Generic, TypeId, natives::MAX_SLOTS};
 use takt_stdlib::catalog::{Function, Intrinsic, Lowering, Pattern};
+use takt_stdlib::{ConversionType, Found};
+
+/// Most inputs of an extensible function.
+const INPUTS_MAX: usize = 64;
+/// Most strings of a native call: two slots each, and two for the result.
+const STRINGS_MAX: usize = MAX_SLOTS / 2 - 1;
 
 impl Builder<'_> {
     /// A call as it is written.
@@ -22,13 +27,22 @@ impl Builder<'_> {
         want: Option<TypeId>,
     ) -> Operand {
         let Some(exprs) = self.standard_arguments(found, name, args, span) else { return self.bad(span) };
-        let hint = match found {
-            Found::Function { function, fixed: None } if matches!(function.result, Pattern::T(_)) => want,
-            Found::Function { fixed: Some(e), .. } => Some(self.elem(e)),
-            _ => None,
-        };
-        let args: Vec<_> = exprs.into_iter().map(|e| self.operand(e, hint)).collect();
+        let hints: Vec<_> = (0..exprs.len()).map(|i| self.hint(found, i, want)).collect();
+        let args: Vec<_> = exprs.into_iter().zip(hints).map(|(e, hint)| self.operand(e, hint)).collect();
         self.apply(found, args, span, want)
+    }
+
+    /// What the parameter at a position wants, as far as the name says it.
+    fn hint(&mut self, found: Found, i: usize, want: Option<TypeId>) -> Option<TypeId> {
+        match found {
+            Found::Conversion { from: Some(ConversionType::Elementary(e)), .. } => Some(self.elem(e)),
+            Found::Conversion { .. } => None,
+            Found::Function { function, fixed } => match (pattern(function, i), fixed) {
+                (Pattern::Is(e), _) | (Pattern::T(_), Some(e)) => Some(self.elem(e)),
+                (Pattern::T(_), None) if matches!(function.result, Pattern::T(_)) => want,
+                _ => None,
+            },
+        }
     }
 
     /// The arguments in the order of the parameters.
@@ -57,7 +71,7 @@ impl Builder<'_> {
         let exprs: Vec<_> = slots.into_iter().flatten().collect();
         let (least, most) = arity(found);
         if exprs.len() != count || exprs.len() < least || exprs.len() > most {
-            let wanted = if least == most { least.to_string() } else { format!("{least} or more") };
+            let wanted = if least == most { least.to_string() } else { format!("{least} to {most}") };
             let label = format!("{} given, `{}` takes {wanted}", exprs.len(), name.text);
             self.error(Code::WrongArgumentCount, span, label);
             return None;
@@ -301,20 +315,43 @@ impl Builder<'_> {
     }
 
     fn finish(&mut self, f: &Function, args: Vec<Expr>, ty: TypeId, span: Span) -> Operand {
-        let kind = match f.lowering {
-            Lowering::Inline(Intrinsic::Not) => {
-                let Some(a) = args.into_iter().next() else { return self.bad(span) };
-                return self.complement(Operand::fixed(a), span, Some(ty));
-            }
-            Lowering::Inline(i) => ExprKind::Intrinsic(i, args),
+        match f.lowering {
+            Lowering::Inline(Intrinsic::Not) => match args.into_iter().next() {
+                Some(a) => self.complement(Operand::fixed(a), span, Some(ty)),
+                None => self.bad(span),
+            },
+            Lowering::Inline(i) => self.intrinsic(i, args, ty, span),
             Lowering::Native => {
                 let shared = f.params.iter().zip(&args).find(|(p, _)| matches!(p.ty, Pattern::T(_))).map(|(_, a)| a.ty);
                 let suffix = shared.map(|t| self.type_name(t)).unwrap_or_default();
-                let Some(name) = f.native(suffix) else { return self.bad(span) };
-                ExprKind::Native { name, args }
+                match f.native(suffix) {
+                    Some(name) => self.native(name, args, ty, span),
+                    None => self.bad(span),
+                }
             }
-        };
-        Operand::fixed(Expr { kind, ty, span })
+        }
+    }
+
+    /// A call of an inline function; of constants its value.
+    pub fn intrinsic(&mut self, i: Intrinsic, args: Vec<Expr>, ty: TypeId, span: Span) -> Operand {
+        match self.fold_intrinsic(i, &args, ty) {
+            Some(Ok(c)) => Operand::fixed(constant_expr(c, ty, span)),
+            Some(Err(why)) => self.fold_error(why, span),
+            None => Operand::fixed(Expr { kind: ExprKind::Intrinsic(i, args), ty, span }),
+        }
+    }
+
+    /// A call of a native; of constant scalars its value. More strings than a call has slots are joined in steps.
+    pub(super) fn native(&mut self, name: String, mut args: Vec<Expr>, ty: TypeId, span: Span) -> Operand {
+        if let Some(Ok(c)) = self.fold_native(&name, &args, ty) {
+            return Operand::fixed(constant_expr(c, ty, span));
+        }
+        while args.len() > STRINGS_MAX {
+            let rest = args.split_off(STRINGS_MAX);
+            let joined = Expr { kind: ExprKind::Native { name: name.clone(), args }, ty, span };
+            args = std::iter::once(joined).chain(rest).collect();
+        }
+        Operand::fixed(Expr { kind: ExprKind::Native { name, args }, ty, span })
     }
 
     /// `STRING` for a string of any capacity.
@@ -343,7 +380,7 @@ fn pattern(f: &Function, i: usize) -> Pattern {
 fn arity(found: Found) -> (usize, usize) {
     match found {
         Found::Conversion { .. } => (1, 1),
-        Found::Function { function: f, .. } => (f.params.len(), if f.extensible { usize::MAX } else { f.params.len() }),
+        Found::Function { function: f, .. } => (f.params.len(), if f.extensible { INPUTS_MAX } else { f.params.len() }),
     }
 }
 

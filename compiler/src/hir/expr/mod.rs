@@ -94,7 +94,8 @@ impl Builder<'_> {
         self.int_value(&o.expr)
     }
 
-    fn int_value(&mut self, e: &Expr) -> Option<i128> {
+    /// The value of a constant; a report if it is none.
+    pub fn int_value(&mut self, e: &Expr) -> Option<i128> {
         match &e.kind {
             _ if e.ty == self.error => None,
             ExprKind::Const(c) => constant::int(c),

@@ -2,7 +2,7 @@
 
 use crate::hir::builder::Builder;
 use crate::hir::constant;
-use crate::hir::convert::{Flex, Operand, constant_expr};
+use crate::hir::convert::{Flex, Operand};
 use crate::hir::model::*;
 use crate::syntax::ast::BinaryOp;
 use takt_base::Span;
@@ -24,14 +24,7 @@ impl Builder<'_> {
         };
         let base = self.raise_base(a, base_type);
         let Some(exponent) = self.exponent(b, base_type) else { return self.bad(span) };
-        if let (ExprKind::Const(x), ExprKind::Const(y)) = (&base.kind, &exponent.kind)
-            && let Some(value) = constant::real(x).zip(constant::int(y)).and_then(|(x, n)| constant::power(x, n))
-        {
-            let e = self.elementary(base_type).unwrap_or(Elementary::Lreal);
-            return Operand::fixed(constant_expr(Const::Real(constant::round(e, value)), base_type, span));
-        }
-        let kind = ExprKind::Intrinsic(Intrinsic::Expt, vec![base, exponent]);
-        Operand::fixed(Expr { kind, ty: base_type, span })
+        self.intrinsic(Intrinsic::Expt, vec![base, exponent], base_type, span)
     }
 
     fn power_base(&mut self, a: &Operand, want: Option<TypeId>) -> Option<TypeId> {

@@ -4,11 +4,12 @@
 use super::TypeUse;
 use crate::hir::builder::Builder;
 use crate::hir::constant;
+use crate::hir::convert::Flex;
 use crate::hir::model::*;
 use crate::syntax::ast;
 use takt_base::{Code, Diag};
-use takt_image::Elementary;
 use takt_image::types::Type;
+use takt_image::{Elementary, TypeId};
 
 impl Builder<'_> {
     /// `(A, B := 5)`, `DWORD (A := 1)`.
@@ -67,14 +68,26 @@ impl Builder<'_> {
                 self.error(Code::DuplicateName, name.span, label);
                 continue;
             }
-            let given = explicit.as_ref().map(|e| self.const_of(e, want));
-            let value = given.flatten().unwrap_or(next);
-            if given.is_none() && !base.int_range().is_some_and(|(low, high)| (low..=high).contains(&value)) {
-                self.error(Code::OutOfRange, name.span, format!("{value} is no {}", base.name()));
+            let value = explicit.as_ref().map_or(Some(next), |e| self.enum_value(e, want)).unwrap_or(next);
+            if !base.int_range().is_some_and(|(low, high)| (low..=high).contains(&value)) {
+                let at = explicit.as_ref().map_or(name.span, |e| e.span);
+                self.error(Code::OutOfRange, at, format!("{value} is no {}", base.name()));
             }
             self.scope.values.push((name.text.clone(), want, value));
             next = value.saturating_add(1);
         }
         std::mem::take(&mut self.scope.values).into_iter().map(|(name, _, value)| (name, value)).collect()
+    }
+
+    /// An untyped integer is a number here even if the base is a bit string.
+    fn enum_value(&mut self, e: &ast::Expr, base: TypeId) -> Option<i128> {
+        let o = self.operand(e, Some(base));
+        match (o.flex, &o.expr.kind) {
+            (Flex::Int { .. }, ExprKind::Const(c)) => constant::int(c),
+            _ => {
+                let value = self.fit(o, base);
+                self.int_value(&value)
+            }
+        }
     }
 }
