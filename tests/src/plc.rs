@@ -36,10 +36,15 @@ pub fn compile_st(text: &str) -> Compilation {
 impl Plc {
     /// Compiles and loads; panics with the messages if the text has errors.
     pub fn new(text: &str) -> Self {
+        Self::load(text).unwrap_or_else(|messages| panic!("{messages}\n{text}"))
+    }
+
+    /// Compiles and loads; the messages if the text has errors.
+    pub fn load(text: &str) -> Result<Self, String> {
         let c = compile_st(text);
         let errors = c.diags.iter().filter(|d| d.severity == Severity::Error);
         let messages: Vec<_> = errors.map(|d| render(d, &c.sources)).collect();
-        let (Some(image), Some(module)) = (c.image, c.module) else { panic!("{}\n{text}", messages.join("\n")) };
+        let (Some(image), Some(module)) = (c.image, c.module) else { return Err(messages.join("\n")) };
         let module = Arc::new(module);
         let mut natives = [Library::new(), Library::new()];
         let bindings = Interpreter::bind(&module, &mut natives[0], &image.types).expect("natives bind");
@@ -51,7 +56,7 @@ impl Plc {
             let (engine, natives) = pairs.next().expect("two sides");
             Side { engine, natives, memory: initial_memory(&image) }
         });
-        Plc { image, sides }
+        Ok(Plc { image, sides })
     }
 
     /// Runs all programs of all tasks once at `now_ms`; panics if the engines differ.
