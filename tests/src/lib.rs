@@ -3,6 +3,7 @@
 pub mod cycle_table;
 pub mod differential;
 pub mod expression_table;
+pub mod fuzz;
 pub mod generate;
 mod markdown;
 pub mod mir_gen;
