@@ -61,10 +61,15 @@ impl Plc {
 
     /// Runs all programs of all tasks once at `now_ms`; panics if the engines differ.
     pub fn scan(&mut self, now_ms: i64) -> Result<(), Fault> {
+        self.scan_within(now_ms, BUDGET)
+    }
+
+    /// [`Plc::scan`] with another watchdog for each program.
+    pub fn scan_within(&mut self, now_ms: i64, budget: Nanos) -> Result<(), Fault> {
         let tasks = std::mem::take(&mut self.image.tasks);
         let results = self.sides.each_mut().map(|side| {
             let mut programs = tasks.iter().flat_map(|t| &t.programs);
-            programs.try_for_each(|p| side.run(p.function, p.instance, now_ms))
+            programs.try_for_each(|p| side.run(p.function, p.instance, now_ms, budget))
         });
         self.image.tasks = tasks;
         assert_eq!(results[0], results[1], "interpreter and native code end differently");
@@ -106,8 +111,8 @@ impl Plc {
 }
 
 impl Side {
-    fn run(&mut self, function: u32, instance: u32, now_ms: i64) -> Result<(), Fault> {
-        self.engine.run(function, instance, Nanos::from_millis(now_ms), BUDGET, &mut self.memory, &mut self.natives)
+    fn run(&mut self, function: u32, instance: u32, now_ms: i64, budget: Nanos) -> Result<(), Fault> {
+        self.engine.run(function, instance, Nanos::from_millis(now_ms), budget, &mut self.memory, &mut self.natives)
     }
 }
 
