@@ -18,8 +18,8 @@ CONFIGURATION c RESOURCE r ON plc TASK fast (INTERVAL := T#10ms, PRIORITY := 1);
 const NGC: &str = "%\nO100 (plate)\nN10 G90 G21 G17\nN20 G0 X10.5 Y-3 Z2\nG1 F200 Z-1\nG2 X20 Y0 I5 J3\nG81 R2 Z-5 X3\nG80\n#1=[2+3*SIN[30]]\nM3 S1000\nM30\n%\n";
 
 const WORDS: [&str; 24] = [
-    "END_IF", "(", ")", "[", "]", ";", ":=", "=>", "VAR", "END_VAR", "'", "\"", "16#", "T#", "..", "%IX0.", "ARRAY[", "OF", "-", "**", "E", "#",
-    "(*", "\0",
+    "END_IF", "(", ")", "[", "]", ";", ":=", "=>", "VAR", "END_VAR", "'", "\"", "16#", "T#", "..", "%IX0.", "ARRAY[", "OF", "-",
+    "**", "E", "#", "(*", "\0",
 ];
 
 fn setting(name: &str, default: u64) -> u64 {

@@ -9,7 +9,8 @@ const TYPES: &str = "TYPE Pct : INT (0..100); S : STRUCT n : Pct; END_STRUCT; EN
 FUNCTION half : Pct VAR_INPUT x : Pct; END_VAR half := x / 2; END_FUNCTION
 FUNCTION bad : Pct VAR_INPUT x : INT; END_VAR bad := x; END_FUNCTION
 FUNCTION_BLOCK keep VAR_INPUT x : Pct; END_VAR VAR_OUTPUT y : INT; END_VAR y := x; END_FUNCTION_BLOCK";
-const VARS: &str = "i, j, k : INT; n : Pct; s : S; a : ARRAY[1..3] OF Pct; f : keep; m : ARRAY[0..1, 5..6] OF INT; t : STRING[5] := 'abc';
+const VARS: &str =
+    "i, j, k : INT; n : Pct; s : S; a : ARRAY[1..3] OF Pct; f : keep; m : ARRAY[0..1, 5..6] OF INT; t : STRING[5] := 'abc';
     w : WSTRING[5]; c : CHAR; d : DINT; l : LINT; u : USINT; x : REAL; y : LREAL; b : BYTE; p : TIME; v : UINT;";
 
 fn text(body: &str) -> String {
@@ -71,7 +72,9 @@ fn a_refused_value_is_not_stored() {
 /// "array index out of range": F0702.
 #[test]
 fn indices() {
-    for (index, body) in [("0", "k := a[i];"), ("4", "a[i] := 5;"), ("4", "k := m[0, i];"), ("2", "m[i, 5] := 1;"), ("-1", "m[i, 5] := 1;")] {
+    for (index, body) in
+        [("0", "k := a[i];"), ("4", "a[i] := 5;"), ("4", "k := m[0, i];"), ("2", "m[i, 5] := 1;"), ("-1", "m[i, 5] := 1;")]
+    {
         traps(&format!("i := {index}; {body}"), Trap::Index);
     }
     refused("k := a[0];", "P2009");
@@ -94,7 +97,10 @@ fn strings() {
 /// "integer overflow": wraps; constant: refused.
 #[test]
 fn overflow() {
-    gives("i := 32767; i := i + 1; u := u - 1; l := l - 1; d := 2147483647; d := d * 2;", &[("i", "-32768"), ("u", "255"), ("d", "-2")]);
+    gives(
+        "i := 32767; i := i + 1; u := u - 1; l := l - 1; d := 2147483647; d := d * 2;",
+        &[("i", "-32768"), ("u", "255"), ("d", "-2")],
+    );
     refused("i := 32767 + 1;", "P2004");
     refused("u := USINT#200 + USINT#100;", "P2004");
 }
@@ -159,7 +165,9 @@ fn results() {
 /// "loop fails to terminate": F0705.
 #[test]
 fn endless_loops() {
-    for body in ["WHILE i = 0 DO j := j + 1; END_WHILE", "REPEAT j := j + 1; UNTIL i <> 0 END_REPEAT", "WHILE TRUE DO ; END_WHILE"] {
+    for body in
+        ["WHILE i = 0 DO j := j + 1; END_WHILE", "REPEAT j := j + 1; UNTIL i <> 0 END_REPEAT", "WHILE TRUE DO ; END_WHILE"]
+    {
         let mut plc = Plc::new(&text(body));
         let fault = plc.scan_within(0, Nanos::from_millis(50)).expect_err("it does not end");
         assert_eq!(fault.trap, Trap::Watchdog, "{body}");

@@ -42,11 +42,7 @@ fn example_3() {
 /// §5.5: bit strings, characters and wide types select too.
 #[test]
 fn case_of_other_types() {
-    check(
-        "b : BYTE := 16#A0; n : INT;",
-        "CASE b OF 16#00..16#7F: n := 1; 16#80..16#FF: n := 2; END_CASE",
-        &[("n", "2")],
-    );
+    check("b : BYTE := 16#A0; n : INT;", "CASE b OF 16#00..16#7F: n := 1; 16#80..16#FF: n := 2; END_CASE", &[("n", "2")]);
     check(
         "l : LINT := -9000000000; n : INT;",
         "CASE l OF -9223372036854775808..-8999999999: n := 1; ELSE n := 2; END_CASE",
@@ -57,7 +53,9 @@ fn case_of_other_types() {
 /// 4. EXIT and CONTINUE in nested loops.
 #[test]
 fn example_4() {
-    for (word, flag, n) in [("EXIT", "FALSE", "15"), ("EXIT", "TRUE", "6"), ("CONTINUE", "TRUE", "9"), ("CONTINUE", "FALSE", "15")] {
+    for (word, flag, n) in
+        [("EXIT", "FALSE", "15"), ("EXIT", "TRUE", "6"), ("CONTINUE", "TRUE", "9"), ("CONTINUE", "FALSE", "15")]
+    {
         let body = format!(
             "n := 0; FOR i := 1 TO 3 DO FOR j := 1 TO 2 DO n := n + 1; IF flag THEN {word}; END_IF; n := n + 1; END_FOR; n := n + 1; END_FOR"
         );

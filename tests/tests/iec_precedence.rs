@@ -2,7 +2,8 @@
 
 use takt_tests::plc::check;
 
-const VARS: &str = "zero : INT := 0; one : INT := 1; two : INT := 2; three : INT := 3; four : INT := 4; seven : INT := 7; ten : INT := 10;
+const VARS: &str =
+    "zero : INT := 0; one : INT := 1; two : INT := 2; three : INT := 3; four : INT := 4; seven : INT := 7; ten : INT := 10;
     xtwo : LREAL := 2.0; xthree : LREAL := 3.0; xfour : LREAL := 4.0; yes : BOOL := TRUE; no : BOOL; f0 : WORD := 16#F0;
     m3c : WORD := 16#3C; w1 : WORD := 16#01; i : INT; x : LREAL; b : BOOL; w : WORD;";
 

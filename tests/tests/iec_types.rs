@@ -24,7 +24,8 @@ fn enumerations_start_where_they_say() {
 #[test]
 fn enumerators_are_found_by_the_type_wanted() {
     let types = "TYPE Light : (Off, Red, Green); Motor : (Off, Slow, Fast) := Fast; END_TYPE";
-    let body = "l := Off; m := Off; x := l = Off; y := Motor#Off = m; l := SEL(x, Light#Red, Green); k := MUX(i, Motor#Slow, Fast, Off);
+    let body =
+        "l := Off; m := Off; x := l = Off; y := Motor#Off = m; l := SEL(x, Light#Red, Green); k := MUX(i, Motor#Slow, Fast, Off);
         CASE m OF Off: n := 1; Slow, Fast: n := 2; END_CASE;";
     let vars = "l : Light := Green; m, k : Motor; x, y : BOOL; i : INT := 1; n : INT;";
     check_in(types, vars, body, &[("l", "Green"), ("m", "Off"), ("x", "TRUE"), ("y", "TRUE"), ("k", "Fast"), ("n", "1")]);
@@ -63,7 +64,15 @@ fn subranges_are_checked_at_every_store() {
         FUNCTION out : BOOL VAR_INPUT i : INT; END_VAR VAR_OUTPUT o : INT; END_VAR o := i; END_FUNCTION
         FUNCTION lent : BOOL VAR_INPUT i : INT; END_VAR VAR_IN_OUT r : R; END_VAR r := i; END_FUNCTION";
     let vars = "r : R; s : S; i : INT; x : BOOL; l : ARRAY[0..1] OF S;";
-    for store in ["r := i;", "s.r := i;", "s.l[2] := i;", "l[1].l[1] := i;", "x := out(i, o => r);", "x := lent(i, r := s.r);", "FOR r := 0 TO i DO ; END_FOR"] {
+    for store in [
+        "r := i;",
+        "s.r := i;",
+        "s.l[2] := i;",
+        "l[1].l[1] := i;",
+        "x := out(i, o => r);",
+        "x := lent(i, r := s.r);",
+        "FOR r := 0 TO i DO ; END_FOR",
+    ] {
         let text = |i| format!("{head} PROGRAM p VAR {vars} END_VAR i := {i}; {store} END_PROGRAM").replace('\n', " ");
         assert_eq!(fault(&text(21)).0, Trap::Range, "{store}");
         check_program(&text(19), 1, &[]);
@@ -101,7 +110,17 @@ fn array_elements() {
     let body = "FOR i := 0 TO 2 DO FOR j := -1 TO 1 DO a[i, j] := 10 * i + j; b[i][j] := a[i][j]; END_FOR; END_FOR;
         c := a; a[1, 1] := 0; x := c[1, 1]; y := b[2, -1]; i := 2; j := 0; z := a[i, j] * 100 + b[i][j];";
     let vars = "a, c : ARRAY[0..2, -1..1] OF INT; b : ARRAY[0..2] OF ARRAY[-1..1] OF INT; i, j, x, y, z : INT;";
-    check(vars, body, &[("x", "11"), ("y", "19"), ("z", "2020"), ("c", "[[-1, 0, 1], [9, 10, 11], [19, 20, 21]]"), ("b", "[[-1, 0, 1], [9, 10, 11], [19, 20, 21]]")]);
+    check(
+        vars,
+        body,
+        &[
+            ("x", "11"),
+            ("y", "19"),
+            ("z", "2020"),
+            ("c", "[[-1, 0, 1], [9, 10, 11], [19, 20, 21]]"),
+            ("b", "[[-1, 0, 1], [9, 10, 11], [19, 20, 21]]"),
+        ],
+    );
 }
 
 /// §2.8, §3.6: type defaults, then type initialisers, then the instance's.
@@ -130,9 +149,19 @@ fn structures_inside_structures() {
 fn strings() {
     let body = "a := b; c := a; n := LEN(a); x := 'ab' < b; y := a < b; z := CONCAT(a, 'f') > b; e := '' = LEFT(b, 0);
         c := INSERT(c, '123', 2); m := LEN(c); w := CONCAT(w, w, w);";
-    let vars = "a : STRING[5]; b : STRING[12] := 'abcdefgh'; c : STRING[7]; n, m : INT; x, y, z, e : BOOL; w : WSTRING[4] := \"xyz\";";
-    let expected =
-        [("a", "'abcde'"), ("c", "'ab123cd'"), ("n", "5"), ("m", "7"), ("x", "TRUE"), ("y", "TRUE"), ("z", "FALSE"), ("e", "TRUE"), ("w", "\"xyzx\"")];
+    let vars =
+        "a : STRING[5]; b : STRING[12] := 'abcdefgh'; c : STRING[7]; n, m : INT; x, y, z, e : BOOL; w : WSTRING[4] := \"xyz\";";
+    let expected = [
+        ("a", "'abcde'"),
+        ("c", "'ab123cd'"),
+        ("n", "5"),
+        ("m", "7"),
+        ("x", "TRUE"),
+        ("y", "TRUE"),
+        ("z", "FALSE"),
+        ("e", "TRUE"),
+        ("w", "\"xyzx\""),
+    ];
     check(vars, body, &expected);
 }
 

@@ -57,9 +57,25 @@ impl Generator {
         if is_constant(&text) { self.variable_expr(ty, depth) } else { text }
     }
 
+    /// Now and then an expression of a type that widens to this one without a conversion (§2.3).
+    pub(super) fn narrower(&mut self, ty: Ty, depth: usize) -> String {
+        let widens = |from: E| match ty {
+            Ty::E(e) => from != e && from.widens_to(e),
+            Ty::Text => from == E::Char,
+            Ty::Wide => from == E::Wchar,
+            _ => false,
+        };
+        let found: Vec<E> = SCALARS.iter().copied().filter(|e| widens(*e)).collect();
+        if found.is_empty() || !self.one_in(8) {
+            return self.expr(ty, depth);
+        }
+        let from = self.random.pick(&found);
+        self.expr(Ty::E(from), depth)
+    }
+
     /// Two operands, not both constant.
     pub(super) fn operands(&mut self, ty: Ty, depth: usize) -> (String, String) {
-        let (mut a, b) = (self.expr(ty, depth), self.expr(ty, depth));
+        let (mut a, b) = (self.expr(ty, depth), self.narrower(ty, depth));
         if is_constant(&a) && is_constant(&b) {
             a = self.variable_expr(ty, depth);
         }

@@ -8,8 +8,9 @@ impl Generator {
     pub(super) fn int_expr(&mut self, e: E, depth: usize) -> String {
         let (ty, d) = (Ty::E(e), depth - 1);
         let (a, b) = self.operands(ty, d);
-        match self.random.below(14) {
+        match self.random.below(16) {
             0 | 1 => format!("({a} + {b})"),
+            14 | 15 => self.untyped(ty, d),
             2 | 3 => format!("({a} - {b})"),
             4 => format!("({a} * {b})"),
             5 | 6 => self.division("/", e, d),
@@ -24,6 +25,20 @@ impl Generator {
             }
             12 if self.one_in(3) => format!("TO_{}({})", e.name(), self.varying(Ty::E(E::Real), d)),
             _ => self.conversion(e, depth),
+        }
+    }
+
+    /// Beside literals without a type, which take that of the other operand.
+    fn untyped(&mut self, ty: Ty, d: usize) -> String {
+        let (a, n) = (self.varying(ty, d), self.random.below(100));
+        match self.random.below(7) {
+            0 => format!("({a} + {n})"),
+            1 => format!("({n} - {a})"),
+            2 => format!("MAX({a}, {n})"),
+            3 => format!("LIMIT(0, {a}, {n})"),
+            4 => format!("({a} / {})", n + 1),
+            5 => format!("({a} * {n} MOD 7)"),
+            _ => format!("SEL(yes, {n}, {a})"),
         }
     }
 
@@ -50,7 +65,7 @@ impl Generator {
     pub(super) fn real_expr(&mut self, e: E, depth: usize) -> String {
         let (ty, d) = (Ty::E(e), depth - 1);
         let (a, b) = self.operands(ty, d);
-        match self.random.below(15) {
+        match self.random.below(16) {
             0 | 1 => format!("({a} + {b})"),
             2 => format!("({a} - {b})"),
             3 => format!("({a} * {b})"),
@@ -61,7 +76,8 @@ impl Generator {
                 let name = self.random.pick(&["SIN", "COS", "TAN", "ASIN", "ACOS", "ATAN", "EXP", "LN", "LOG"]);
                 format!("{name}({})", self.varying(ty, d))
             }
-            8 => format!("ATAN2({a}, {b})"),
+            8 => format!("ATAN2({a}, {})", self.expr(ty, d)),
+            12 => format!("({} * 0.5 - 3)", self.varying(ty, d)),
             9 => format!("({} ** {})", self.varying(ty, d), self.varying(ty, d)),
             10 => format!("EXPT({}, {})", self.varying(ty, d), self.varying(Ty::E(E::Int), d)),
             11 => format!("(-({}))", self.varying(ty, d)),

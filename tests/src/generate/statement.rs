@@ -60,7 +60,10 @@ impl Generator {
 
     /// A constant string may be too long for the target, so that it is refused.
     pub(super) fn assignable(&mut self, ty: Ty, depth: usize) -> String {
-        if matches!(ty, Ty::Text | Ty::Wide) { self.varying(ty, depth) } else { self.expr(ty, depth) }
+        match self.narrower(ty, depth) {
+            text if matches!(ty, Ty::Text | Ty::Wide) && is_constant(&text) => self.variable_expr(ty, depth),
+            text => text,
+        }
     }
 
     fn nested(&mut self, depth: usize) {
@@ -88,7 +91,8 @@ impl Generator {
     }
 
     fn case_statement(&mut self, depth: usize) {
-        let (selector, labels): (_, &[&str]) = match self.random.below(4) {
+        let (selector, labels): (_, &[&str]) = match self.random.below(5) {
+            4 => (self.expr(Ty::E(E::Char), 2), &["CHAR#'A'..CHAR#'F':", "CHAR#'Z', CHAR#'0':"]),
             0 => (self.expr(Ty::E(E::Usint), 2), &["0..3, 5:", "4:", "200..255:", "100:"]),
             1 => (self.expr(Ty::E(E::Lint), 2), &["-9223372036854775808..-1:", "0:", "1..9223372036854775807:"]),
             2 => (format!("({} MOD 12)", self.varying(INT, 2)), &["0:", "1:", "2:", "3, 4:", "5:", "6:", "7..9:"]),
@@ -131,7 +135,12 @@ impl Generator {
                 self.random.pick(&["1 TO 4", "4 TO 1 BY -2", "250 TO 255", "0 TO 6 BY 3", "5 TO 1", "32766 TO 32767"]).to_owned()
             }
         };
-        self.line(format!("FOR {counter} := {range} DO"));
+        if self.loops < 2 && self.one_in(5) {
+            let (start, end) = (self.random.below(3), self.varying(INT, 1));
+            self.line(format!("FOR r{} := {start} TO LIMIT(0, {end}, 9) BY 2 DO", self.loops));
+        } else {
+            self.line(format!("FOR {counter} := {range} DO"));
+        }
         self.in_loop(depth);
         self.line("END_FOR;");
     }
@@ -173,7 +182,7 @@ impl Generator {
         let mut args = Vec::new();
         for input in &callee.inputs {
             if all || !self.one_in(3) {
-                args.push(format!("{} := {}", input.text, self.assignable(input.ty, depth)));
+                args.push(format!("{} := {}", input.text, self.value_for(input, depth)));
             }
         }
         for lent in &callee.lent {

@@ -6,7 +6,7 @@ use takt_image::Elementary as E;
 impl Generator {
     pub(super) fn text_expr(&mut self, ty: Ty, depth: usize) -> String {
         let d = depth - 1;
-        let (a, b) = (self.varying(ty, d), self.expr(ty, d));
+        let (a, b) = (self.varying(ty, d), self.narrower(ty, d));
         let (l, p) = (self.position(d), self.position(d));
         match self.random.below(12) {
             0 => format!("LEFT({a}, {l})"),

@@ -6,7 +6,9 @@ use takt_image::Elementary as E;
 impl Generator {
     /// A type for a parameter or variable, and how it is written.
     pub(super) fn declared_type(&mut self) -> (Ty, String) {
-        match self.random.below(30) {
+        match self.random.below(32) {
+            30 => (Ty::E(E::Int), "Pct".into()),
+            31 => (Ty::E(E::Bool), "BOOL".into()),
             0 => (Ty::Text, format!("STRING[{}]", self.random.pick(&[1, 5, 12, 30]))),
             1 => (Ty::Wide, "WSTRING[8]".into()),
             2 => (Ty::Mode, "Mode".into()),
@@ -28,7 +30,7 @@ impl Generator {
             let (ty, declared) = self.declared_type();
             let text = format!("{prefix}{i}");
             let init = match ty {
-                Ty::E(e) if section != "VAR_IN_OUT" && self.one_in(2) => format!(" := {}", self.literal(e)),
+                Ty::E(e) if section != "VAR_IN_OUT" && declared != "Pct" && self.one_in(2) => format!(" := {}", self.literal(e)),
                 _ => String::new(),
             };
             self.line(format!("  {text} : {declared}{init};"));
@@ -41,11 +43,20 @@ impl Generator {
 
     /// Loop counters, a flag that no constant folding sees through, and the globals.
     fn common(&mut self) {
-        self.line("VAR c0 : DINT; c1 : INT; c2 : USINT; w0, w1, w2 : INT; yes : BOOL := TRUE; n : Pct; END_VAR");
+        self.line("VAR c0 : DINT; c1 : INT; c2 : USINT; w0, w1, w2 : INT; yes : BOOL := TRUE; n, r0, r1 : Pct; END_VAR");
         self.line("VAR cell : Cell; txt : STRING[10] := 'ABC'; wtx : WSTRING[5]; END_VAR");
         self.line("VAR_EXTERNAL CONSTANT KI : INT; KR : REAL; KW : WORD; END_VAR");
         self.line("VAR_EXTERNAL gi : INT; gr : LREAL; gp : Point; gdur : TIME; gw : WORD; gb : BOOL; END_VAR");
-        for (text, e) in [("c0", E::Dint), ("c1", E::Int), ("c2", E::Usint), ("KI", E::Int), ("KR", E::Real), ("KW", E::Word)] {
+        for (text, e) in [
+            ("c0", E::Dint),
+            ("c1", E::Int),
+            ("c2", E::Usint),
+            ("r0", E::Int),
+            ("r1", E::Int),
+            ("KI", E::Int),
+            ("KR", E::Real),
+            ("KW", E::Word),
+        ] {
             self.scalar(text, e, false);
         }
         for (text, e) in [("gi", E::Int), ("gr", E::Lreal), ("gdur", E::Time), ("gw", E::Word), ("gb", E::Bool)] {
@@ -79,6 +90,7 @@ impl Generator {
     pub(super) fn function(&mut self, i: usize) {
         let name = format!("Fun{i}");
         let (result, declared) = self.declared_type();
+        let declared = declared.replace("Pct", "INT");
         self.clear(i > 0);
         self.line(format!("FUNCTION {name} : {declared}"));
         let inputs = self.declare("a", 3, "VAR_INPUT", false);
