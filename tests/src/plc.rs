@@ -36,10 +36,15 @@ pub fn compile_st(text: &str) -> Compilation {
 impl Plc {
     /// Compiles and loads; panics with the messages if the text has errors.
     pub fn new(text: &str) -> Self {
+        Self::load(text).unwrap_or_else(|messages| panic!("{messages}\n{text}"))
+    }
+
+    /// Compiles and loads; the messages if the text has errors.
+    pub fn load(text: &str) -> Result<Self, String> {
         let c = compile_st(text);
         let errors = c.diags.iter().filter(|d| d.severity == Severity::Error);
         let messages: Vec<_> = errors.map(|d| render(d, &c.sources)).collect();
-        let (Some(image), Some(module)) = (c.image, c.module) else { panic!("{}\n{text}", messages.join("\n")) };
+        let (Some(image), Some(module)) = (c.image, c.module) else { return Err(messages.join("\n")) };
         let module = Arc::new(module);
         let mut natives = [Library::new(), Library::new()];
         let bindings = Interpreter::bind(&module, &mut natives[0], &image.types).expect("natives bind");
@@ -51,22 +56,27 @@ impl Plc {
             let (engine, natives) = pairs.next().expect("two sides");
             Side { engine, natives, memory: initial_memory(&image) }
         });
-        Plc { image, sides }
+        Ok(Plc { image, sides })
     }
 
     /// Runs all programs of all tasks once at `now_ms`; panics if the engines differ.
     pub fn scan(&mut self, now_ms: i64) -> Result<(), Fault> {
+        self.scan_within(now_ms, BUDGET)
+    }
+
+    /// [`Plc::scan`] with another watchdog for each program.
+    pub fn scan_within(&mut self, now_ms: i64, budget: Nanos) -> Result<(), Fault> {
         let tasks = std::mem::take(&mut self.image.tasks);
         let results = self.sides.each_mut().map(|side| {
             let mut programs = tasks.iter().flat_map(|t| &t.programs);
-            programs.try_for_each(|p| side.run(p.function, p.instance, now_ms))
+            programs.try_for_each(|p| side.run(p.function, p.instance, now_ms, budget))
         });
         self.image.tasks = tasks;
-        // Where an endless loop is when its time is over is chance.
-        let late = |r: &Result<(), Fault>| matches!(r, Err(f) if f.trap == Trap::Watchdog);
-        let alike = results[0] == results[1] || results.iter().all(late);
+        // Where a watchdog or the end of the stack strikes is not the same on both.
+        let chance = |r: &Result<(), Fault>| matches!(r, Err(f) if matches!(f.trap, Trap::Watchdog | Trap::StackOverflow));
+        let alike = results[0] == results[1] || results.iter().all(chance);
         assert!(alike, "interpreter and native code end differently: {:?}, {:?}", results[0], results[1]);
-        if results[0].is_ok() {
+        if !chance(&results[0]) {
             self.compare();
         }
         results[0]
@@ -112,8 +122,8 @@ fn alike(a: &[u8], b: &[u8]) -> bool {
 }
 
 impl Side {
-    fn run(&mut self, function: u32, instance: u32, now_ms: i64) -> Result<(), Fault> {
-        self.engine.run(function, instance, Nanos::from_millis(now_ms), BUDGET, &mut self.memory, &mut self.natives)
+    fn run(&mut self, function: u32, instance: u32, now_ms: i64, budget: Nanos) -> Result<(), Fault> {
+        self.engine.run(function, instance, Nanos::from_millis(now_ms), budget, &mut self.memory, &mut self.natives)
     }
 }
 
@@ -149,7 +159,7 @@ pub fn check(vars: &str, body: &str, expected: &[(&str, &str)]) {
 }
 
 /// The fault of the first scan, by the number of its trap and its line in the text.
-pub fn fault(text: &str) -> (takt_image::Trap, u32) {
+pub fn fault(text: &str) -> (Trap, u32) {
     let mut plc = Plc::new(text);
     let fault = plc.scan(0).expect_err("a fault");
     assert_eq!(plc.image.files.get(fault.file as usize).map(String::as_str), Some("test.st"));

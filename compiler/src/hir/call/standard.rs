@@ -1,6 +1,7 @@
 //! Calls of standard functions: arguments in order, the common type T of those that share it, result type (library reference §1, §13).
 
 use crate::hir::builder::Builder;
+use crate::hir::constant;
 use crate::hir::convert::{Flex, Operand, constant_expr};
 use crate::hir::model::*;
 use crate::hir::types::STRING_MAX;
@@ -315,6 +316,9 @@ impl Builder<'_> {
     }
 
     fn finish(&mut self, f: &Function, args: Vec<Expr>, ty: TypeId, span: Span) -> Operand {
+        if matches!(f.lowering, Lowering::Inline(Intrinsic::Shl | Intrinsic::Shr)) {
+            self.check_shift(&args);
+        }
         match f.lowering {
             Lowering::Inline(Intrinsic::Not) => match args.into_iter().next() {
                 Some(a) => self.complement(Operand::fixed(a), span, Some(ty)),
@@ -352,6 +356,15 @@ impl Builder<'_> {
             args = std::iter::once(joined).chain(rest).collect();
         }
         Operand::fixed(Expr { kind: ExprKind::Native { name, args }, ty, span })
+    }
+
+    /// A constant count below zero (§11).
+    fn check_shift(&mut self, args: &[Expr]) {
+        let Some(Expr { kind: ExprKind::Const(count), span, .. }) = args.get(1) else { return };
+        if constant::int(count).is_some_and(|n| n < 0) {
+            let help = "shift the other way, or write ROL or ROR";
+            self.report(Diag::new(Code::OutOfRange, *span, "a count below zero").help(help));
+        }
     }
 
     /// `STRING` for a string of any capacity.

@@ -35,6 +35,7 @@ impl Builder<'_> {
 
     /// `literal` in the type that goes with the typed operand.
     fn unify_literal(&mut self, typed: Operand, literal: Operand, want: Option<TypeId>) -> Option<(Operand, Operand)> {
+        let typed = self.decay(typed);
         let ty = typed.expr.ty;
         match (literal.flex, self.elementary(ty)) {
             (Flex::Int { .. }, Some(e)) if e.is_int() || e.is_real() || e.is_bit() => {

@@ -52,7 +52,7 @@ impl Unit<'_, '_> {
     }
 
     /// Traps (Range) if a value of type `from` is not in the subrange `to`. One comparison: distance from the lower bound, unsigned.
-    fn check_subrange(&mut self, x: Local, from: Elementary, to: TypeId, known: Option<Interval>) {
+    pub fn check_subrange(&mut self, x: Local, from: Elementary, to: TypeId, known: Option<Interval>) {
         let (Type::Subrange { low, high, .. }, Some(all)) = (self.hir.types.get(to), from.int_range()) else { return };
         let (low, high) = ((*low).max(all.0), (*high).min(all.1));
         if known.is_some_and(|(i, j)| low <= i && j <= high) {

@@ -9,7 +9,7 @@ use super::walk::{self, Event};
 use crate::hir::model::*;
 use crate::mir::model::*;
 use crate::syntax::ast::BinaryOp as Operator;
-use takt_image::{Elementary, Trap, Type};
+use takt_image::{Elementary, Trap, Type, TypeId};
 
 /// A FOR variable that nothing but its own loop changes: the loop's statements read it from a register.
 #[derive(Clone, Copy)]
@@ -32,7 +32,10 @@ enum Direction {
 /// A loop's registers.
 struct Count {
     variable: Loc,
+    ty: TypeId,
     e: Elementary,
+    /// Values behind a step, if known.
+    range: Option<Interval>,
     /// Holds the variable's value if it is steady.
     register: Option<Local>,
     to: Local,
@@ -59,13 +62,13 @@ impl Unit<'_, '_> {
             Loc::Register(l) => l,
             _ => *self.counter_registers.entry(var).or_insert_with(|| self.f.local(self.f.ty(from))),
         });
-        let count = Count { variable: loc, e, register, to, by, direction };
+        let range = self.range(values[0], values[1], direction);
+        let count = Count { variable: loc, ty: variable.ty, e, range, register, to, by, direction };
         let (inside, step, done) = (self.f.block(), self.f.block(), self.f.block());
-        self.set(&count, from);
+        self.set(&count, from, self.interval(values[0]));
         let beyond = self.passed(&count, from);
         self.f.branch(beyond, done, inside);
         self.f.enter(inside);
-        let range = self.range(values[0], values[1], direction);
         let counter = steady.zip(register).map(|(var, register)| Counter { var, register, range });
         self.counters.extend(counter);
         self.loop_body(body, LoopEnds { exit: done, next: step });
@@ -107,7 +110,9 @@ impl Unit<'_, '_> {
         }
     }
 
-    fn set(&mut self, count: &Count, value: Local) {
+    /// Stores a value of which `known` is known; it may be outside of the variable's subrange.
+    fn set(&mut self, count: &Count, value: Local, known: Option<Interval>) {
+        self.check_subrange(value, count.e, count.ty, known);
         if let Some(register) = count.register {
             self.f.copy(register, value);
         }
@@ -153,7 +158,7 @@ impl Unit<'_, '_> {
         let (again, out) = (self.f.block(), self.f.block());
         self.f.branch(last, out, again);
         self.f.enter(again);
-        self.set(count, next);
+        self.set(count, next, count.range);
         self.f.jump(inside);
         self.f.enter(out);
         self.final_value(count, variable, value, next);
