@@ -1,4 +1,4 @@
-//! Time as a number. The only clock is `runtime/clock.rs`; everybody else is handed the time (R2: time is an argument).
+//! Time as a number. The only clock is `runtime/clock.rs`; everybody else is handed the time.
 
 /// A duration or an instant since the start of the controller, in nanoseconds.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default)]

@@ -105,7 +105,7 @@ fn endless_loop_is_stopped_by_the_watchdog() {
     assert_eq!(std::thread::spawn(move || run(&asm, 0)).join().unwrap(), fault(Trap::Watchdog, 0, 0, 2));
 }
 
-/// Natives 0: adds its arguments; 1: panics; 2: a string index trap; 3: computes for 40 ms.
+/// Natives 0: adds its arguments; 1: panics; 2: a string index trap; 3: computes for 60 ms.
 struct Four;
 
 impl Natives for Four {
@@ -207,4 +207,37 @@ fn what_does_not_fit_is_refused() {
     let mut engine = NativeEngine::new(&asm.image, &mut Bare).unwrap();
     assert_eq!(engine.run(0, 88, Nanos(1), BUDGET, &mut [0; 64], &mut Bare), fault(Trap::Memory, u32::MAX, u32::MAX, 0));
     assert_eq!(engine.run(5, 88, Nanos(1), BUDGET, &mut [0; 64], &mut Bare), fault(Trap::Memory, u32::MAX, u32::MAX, 0));
+}
+
+#[inline(never)]
+fn recurse(n: u64) -> u64 {
+    let room = std::hint::black_box([n; 64]);
+    if n == u64::MAX { 0 } else { recurse(n + 1) + room[(n % 64) as usize] }
+}
+
+/// Faults outside of generated code are not ours: the process ends as it would without us.
+#[test]
+fn other_crashes_stay_crashes() {
+    use std::os::unix::process::ExitStatusExt;
+    const NAME: &str = "TAKT_TEST_CRASH";
+    if let Ok(kind) = std::env::var(NAME) {
+        takt_runtime::prepare_thread().unwrap();
+        if kind == "overflow" {
+            std::process::exit(recurse(0) as i32);
+        }
+        // SAFETY: none: the null pointer is the point.
+        #[allow(unsafe_code)]
+        unsafe {
+            std::ptr::null_mut::<u8>().write_volatile(1);
+        }
+    }
+    let child = |kind| {
+        let me = std::env::current_exe().unwrap();
+        let args = ["--exact", "other_crashes_stay_crashes", "--nocapture"];
+        std::process::Command::new(me).args(args).env(NAME, kind).output().unwrap()
+    };
+    assert_eq!(child("null").status.signal(), Some(11));
+    let overflow = child("overflow");
+    assert_eq!(overflow.status.signal(), Some(6));
+    assert!(String::from_utf8_lossy(&overflow.stderr).contains("overflowed its stack"));
 }

@@ -1,4 +1,4 @@
-//! Text form of a message, as in the example of `docs/guide/diagnostics.md`.
+//! Text form of a message, as in the example of the README.
 
 use super::{Diag, Severity};
 use crate::source::{Sources, Span};

@@ -183,8 +183,7 @@ impl Builder<'_> {
             return Ok(constant_expr(Const::Real(real), to, e.span));
         }
         // A decimal number is not a pattern of bits in profile std; 0 and 1 are BOOL.
-        let boolean = target == Elementary::Bool && (0..=1).contains(&value);
-        if target.is_bit() && !based && !boolean {
+        if target.is_bit() && target != Elementary::Bool && !based {
             return Err(Misfit::DecimalBits);
         }
         if !(target.is_int() || target.is_bit()) {

@@ -184,10 +184,11 @@ impl Builder<'_> {
         };
         match what {
             Some(what) => self.error(Code::NotAVariable, n.span, what),
-            None => {
+            None if self.scope.unknown.insert(n.key()) => {
                 let known = self.value_names();
                 self.unknown(Code::UnknownName, n, known);
             }
+            None => {}
         }
     }
 

@@ -27,6 +27,8 @@ pub(super) struct Scope {
     pub result_written: bool,
     /// Globals whose direct use has been mentioned.
     pub mentioned: HashSet<GlobalId>,
+    /// Unknown names that have been reported.
+    pub unknown: HashSet<String>,
 }
 
 /// Why a variable can't be written.
