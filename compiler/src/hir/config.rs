@@ -46,18 +46,9 @@ impl<'a> Builder<'a> {
             let at = self.symbols.pous[program.pou].decl.name.span;
             self.check_bound(program.pou, at);
         }
-        if programs.is_empty() {
-            self.no_program();
-        } else {
+        if !programs.is_empty() {
             let interval = Some(DEFAULT_INTERVAL);
             self.hir.tasks.push(Task { name: DEFAULT_TASK.to_owned(), priority: 0, interval, single: None, programs });
-        }
-    }
-
-    fn no_program(&mut self) {
-        if let Some(at) = self.symbols.somewhere {
-            let help = "write PROGRAM Main ... END_PROGRAM";
-            self.report(Diag::new(Code::NoProgram, at, "no PROGRAM in any file").help(help));
         }
     }
 
@@ -76,9 +67,6 @@ impl<'a> Builder<'a> {
             if let (Some(program), true) = (program, self.unique(&mut names, &decl.name)) {
                 self.assign_task(decl, program);
             }
-        }
-        if resource.programs.is_empty() {
-            self.no_program();
         }
     }
 

@@ -174,7 +174,7 @@ pub enum Const {
     WString(Vec<u16>),
     /// Elements of an array in memory order, or fields of a record in order.
     Aggregate(Vec<Const>),
-    /// All bytes zero, whatever the type: cheap form of a large default.
+    /// All bytes zero, whatever the type, alone or as a part: cheap form of a large default.
     Zero,
 }
 
@@ -213,7 +213,7 @@ pub enum StmtKind {
         arms: Vec<(Vec<(i128, i128)>, Vec<Stmt>)>,
         otherwise: Vec<Stmt>,
     },
-    /// All of the variable's type. A step of zero traps (ForStep) when it is not constant. Trip count as in language reference §5.6.
+    /// All of the variable's elementary type (of a subrange its base). A step of zero traps (ForStep) when it is not constant. Trip count as in language reference §5.6.
     For {
         variable: Place,
         from: Expr,
@@ -267,7 +267,7 @@ pub enum ExprKind {
     Binary(BinaryOp, Box<Expr>, Box<Expr>),
     /// Value conversion to `ty`: `how` says which.
     Convert(Conversion, Box<Expr>),
-    /// A user function with all its parameters in order of [`Pou::params`].
+    /// A user function with all its parameters in order of [`Pou::params`]. Without a result the type is BOOL and means nothing.
     Call {
         pou: PouId,
         args: Vec<Arg>,
@@ -313,7 +313,7 @@ pub enum Arg {
     Value(Expr),
     /// VAR_IN_OUT.
     Reference(Place),
-    /// VAR_OUTPUT of a function: where it goes, complemented or not.
+    /// VAR_OUTPUT of a function: where it goes, complemented or not; widened if the target's type is wider than the parameter's.
     Output { target: Place, negated: bool },
     /// VAR_OUTPUT of a function that nobody wants.
     Unused,

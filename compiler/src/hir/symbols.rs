@@ -58,8 +58,6 @@ pub(super) struct Symbols<'a> {
     /// Enumerator name to the types that declare it.
     pub enumerators: HashMap<String, Vec<usize>>,
     pub configurations: Vec<&'a ast::Configuration>,
-    /// A place for messages that belong to no declaration.
-    pub somewhere: Option<Span>,
 }
 
 impl<'a> Builder<'a> {
@@ -68,9 +66,6 @@ impl<'a> Builder<'a> {
         let mine = self.user_names(files);
         for (source, file) in files {
             let library = self.sources.get(*source).library;
-            if !library || self.symbols.somewhere.is_none() {
-                self.symbols.somewhere = Some(Span::new(*source, 0, 0));
-            }
             for item in &file.items {
                 self.collect_item(item, *source, library, &mine);
             }

@@ -68,11 +68,9 @@ impl Built {
     }
 }
 
-/// Messages of a whole file. A file without a PROGRAM is not told so.
+/// Messages of a whole file.
 fn check(text: &str) -> String {
-    let has_program = text.contains("PROGRAM ");
-    let text = if has_program { text.to_owned() } else { format!("{text}\nPROGRAM Last END_PROGRAM") };
-    build(&text).codes()
+    build(text).codes()
 }
 
 /// Messages of a program with these variables (line 2) and statements (line 4), behind declarations (line 1).
