@@ -360,8 +360,9 @@ impl Builder<'_> {
 
     /// A constant count below zero (§11).
     fn check_shift(&mut self, args: &[Expr]) {
-        let Some(Expr { kind: ExprKind::Const(count), span, .. }) = args.get(1) else { return };
-        if constant::int(count).is_some_and(|n| n < 0) {
+        let [value, Expr { kind: ExprKind::Const(count), span, .. }] = args else { return };
+        // Of two constants the folding reports it.
+        if constant::int(count).is_some_and(|n| n < 0) && !matches!(value.kind, ExprKind::Const(_)) {
             let help = "shift the other way, or write ROL or ROR";
             self.report(Diag::new(Code::OutOfRange, *span, "a count below zero").help(help));
         }
