@@ -196,8 +196,8 @@ impl TypeTable {
     pub fn layout(&self, id: TypeId) -> Layout {
         match self.get(id) {
             Type::Elementary(e) | Type::Subrange { base: e, .. } | Type::Enum { base: e, .. } => Layout::of(e.bytes(), e.bytes()),
-            Type::String { capacity } => Layout::of(capacity + 1, 1),
-            Type::WString { capacity } => Layout::of(2 * (capacity + 1), 2),
+            Type::String { capacity } => Layout::of(capacity.saturating_add(1), 1),
+            Type::WString { capacity } => Layout::of(capacity.saturating_add(1).saturating_mul(2), 2),
             Type::Array { element, dims } => {
                 let e = self.layout(*element);
                 let count = dims.iter().fold(1u32, |n, d| n.saturating_mul(d.len()));
@@ -213,7 +213,7 @@ impl TypeTable {
         let mut record = Record { name: name.into(), fields: Vec::new(), size: 0, align: 1 };
         for (name, ty, section, retain) in members {
             let l = self.layout(ty);
-            let offset = record.size.next_multiple_of(l.align);
+            let offset = record.size.checked_next_multiple_of(l.align).unwrap_or(u32::MAX);
             record.fields.push(Field { name, ty, offset, section, retain });
             record.size = offset.saturating_add(l.size);
             record.align = record.align.max(l.align);
@@ -288,5 +288,17 @@ mod tests {
         let a = t.intern(Type::Array { element: s, dims: vec![Dim { low: -1, high: 1 }, Dim { low: 0, high: 1 }] });
         assert_eq!(t.layout(a), Layout { size: 96, align: 4 });
         assert_eq!(t.display(a), "ARRAY[-1..1, 0..1] OF S");
+    }
+
+    #[test]
+    fn what_is_too_large_stays_too_large() {
+        let mut t = TypeTable::new();
+        let l = t.intern(Type::Elementary(Elementary::Lreal));
+        let dim = Dim { low: 0, high: i32::MAX };
+        let huge = t.intern(Type::Array { element: l, dims: vec![dim, dim] });
+        let text = t.intern(Type::WString { capacity: u32::MAX });
+        assert_eq!([huge, text].map(|id| t.layout(id).size), [u32::MAX; 2]);
+        let r = t.record("S", [huge, l, text].map(|ty| ("m".to_owned(), ty, Section::Var, false)));
+        assert_eq!(r.size, u32::MAX);
     }
 }

@@ -196,7 +196,7 @@ impl Resource {
     pub fn counts(&self) -> Snapshot {
         self.counts
     }
-    /// Counters for another thread, renewed after each scan.
+    /// Counters for another thread, renewed after each scan and each tick of the host.
     pub fn progress(&self) -> Arc<Progress> {
         self.progress.clone()
     }
@@ -239,6 +239,7 @@ impl Resource {
         let t = self.ticks.as_mut()?.take(now)?;
         self.host.tick(t);
         self.counts.ticks += 1;
+        self.progress.publish(&self.counts);
         Some(t)
     }
 

@@ -55,7 +55,7 @@ impl TaskState {
     /// Looks at the trigger. An edge that finds the one before it still waiting is an overrun. While the trigger is TRUE, the
     /// interval does not count.
     pub fn sample(&mut self, now: Nanos, memory: &[u8]) {
-        let Some(place) = self.trigger else { return };
+        let Some(place) = self.trigger.filter(|_| !self.stopped) else { return };
         let level = is_set(memory, place);
         if level && !self.level {
             self.stats.overruns += u64::from(self.edge.is_some());
@@ -185,6 +185,9 @@ mod tests {
         assert_eq!(t.rank(Nanos(4)), None);
         [(5, 0), (6, 4), (7, 0), (8, 4)].into_iter().for_each(|(now, byte)| look(&mut t, now, byte));
         assert_eq!((t.take(Nanos(9)), t.stats.overruns), (Nanos(6), 1));
+        t.stopped = true;
+        [(10, 0), (11, 4), (12, 0), (13, 4)].into_iter().for_each(|(now, byte)| look(&mut t, now, byte));
+        assert_eq!((t.rank(Nanos(13)), t.stats.overruns), (None, 1), "nobody waits for a stopped task");
     }
 
     #[test]

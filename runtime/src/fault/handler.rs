@@ -55,17 +55,18 @@ fn install_one(slot: usize, signal: c_int) -> Result<(), LoadError> {
 
 extern "C" fn handle(signal: c_int, info: *mut siginfo_t, context: *mut c_void) {
     let context: *mut ucontext_t = context.cast();
-    // SAFETY: the kernel's pointers are valid here, and `CURRENT` is null or an activation further down on this very thread.
+    // SAFETY: the kernel's pointers are valid here, and `CURRENT` is null or an activation further down on this very thread. Its
+    // fields are reached one by one: the interrupted native entry may hold a reference to `call`.
     unsafe {
         let ours = signal == watchdog_signal() && (*info).si_code == libc::SI_TIMER && is_watchdog(info);
         let current = CURRENT.get();
         let pc = arch::pc(context);
-        if let Some(act) = current.as_mut() {
-            act.ticks += u32::from(ours);
-            let inside = act.code.0 <= pc && pc < act.code.1;
-            let due = signal != watchdog_signal() || (ours && act.ticks >= act.max_ticks);
-            if inside && due {
-                return end(act, signal, pc, info, context);
+        if !current.is_null() {
+            (*current).ticks = (*current).ticks.saturating_add(u32::from(ours));
+            let (start, end) = (*current).code;
+            let due = signal != watchdog_signal() || (ours && (*current).ticks >= (*current).max_ticks);
+            if start <= pc && pc < end && due {
+                return leave(current, signal, pc, info, context);
             }
         }
         // A watchdog that fires inside a native, or outside of an activation, is retried at its next tick.
@@ -76,14 +77,15 @@ extern "C" fn handle(signal: c_int, info: *mut siginfo_t, context: *mut c_void) 
 }
 
 /// Ends the activation.
-unsafe fn end(act: &mut Activation, signal: c_int, pc: u64, info: *mut siginfo_t, context: *mut ucontext_t) {
-    act.signal = signal;
-    act.pc = pc;
+unsafe fn leave(act: *mut Activation, signal: c_int, pc: u64, info: *mut siginfo_t, context: *mut ucontext_t) {
     let touched = matches!(signal, libc::SIGSEGV | libc::SIGBUS);
-    // SAFETY: for these signals the kernel fills the address in; the context is that of the thread inside `act`.
+    // SAFETY: for these signals the kernel fills the address in; the context is that of the thread inside `act`, whose code was
+    // interrupted, so that nobody holds a reference to it.
     unsafe {
-        act.address = if touched { (*info).si_addr() as u64 } else { 0 };
-        arch::leave(context, act);
+        (*act).signal = signal;
+        (*act).pc = pc;
+        (*act).address = if touched { (*info).si_addr() as u64 } else { 0 };
+        arch::leave(context, &*act);
     }
 }
 

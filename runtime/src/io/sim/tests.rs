@@ -70,3 +70,49 @@ fn errors_name_line_and_cell() {
     let many = format!("scan,n\n{}", "x,1\n".repeat(1000));
     assert_eq!(errors(&many).len(), 20);
 }
+
+/// Random text made of what stimulus files are made of: an answer, never a panic, and errors have a place.
+#[test]
+fn any_text_gets_an_answer() {
+    const WORDS: [&str; 22] = [
+        "time",
+        "scan",
+        ",",
+        ",",
+        "\n",
+        "\n",
+        "%IX0.0",
+        "%IB9",
+        "n",
+        "s",
+        "n.3",
+        "n[1]",
+        "\"",
+        "'",
+        "$",
+        "1",
+        "-99999999999999999999",
+        "T#1s",
+        "1e308",
+        "ä",
+        "\r",
+        "#",
+    ];
+    let (image, mut seed, mut good) = (image(), 1u32, 0);
+    let mut next = move |n: usize| {
+        seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        (seed >> 8) as usize % n
+    };
+    for _ in 0..50_000 {
+        let tail: String = (0..next(14)).map(|_| WORDS[next(WORDS.len())]).collect();
+        let text = format!("{}{tail}", ["", "time,n", "scan,%IX0.0,s"][next(3)]);
+        match Stimulus::from_csv(&image, &text) {
+            Ok(mut s) => {
+                s.apply(Nanos(i64::MAX), u64::MAX, &mut vec![0; image.memory.size() as usize]);
+                good += 1;
+            }
+            Err(errors) => assert!(errors.iter().all(|e| e.line >= 1 && !e.message.is_empty()) && !errors.is_empty(), "{text}"),
+        }
+    }
+    assert!(good > 1_000, "{good}");
+}
