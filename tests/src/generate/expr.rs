@@ -9,10 +9,11 @@ impl Generator {
         if depth == 0 || self.one_in(4) {
             return self.leaf(ty, depth);
         }
-        if self.calls && self.one_in(9) {
-            if let Some(call) = self.function_call(ty, depth) {
-                return call;
-            }
+        if self.calls
+            && self.one_in(9)
+            && let Some(call) = self.function_call(ty, depth)
+        {
+            return call;
         }
         if self.one_in(7) {
             return self.selection(ty, depth);
