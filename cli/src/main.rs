@@ -1,5 +1,13 @@
 //! The `takt` command. One file a subcommand; the forms are a contract, see docs/guide/command-line.md.
 
+/// `println!`, but a reader that has gone (`takt explain | head`) is no error.
+macro_rules! say {
+    ($($arg:tt)*) => {{
+        use std::io::Write;
+        let _ = writeln!(std::io::stdout(), $($arg)*);
+    }};
+}
+
 mod commands;
 mod diagnostics;
 mod duration;

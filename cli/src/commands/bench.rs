@@ -76,10 +76,11 @@ fn print(args: &Args, session: &Session, resource: &Resource, compile_ms: f64) {
             "code_bytes": code,
             "data_bytes": data,
         });
-        return println!("{}", serde_json::to_string_pretty(&document).unwrap_or_default());
+        say!("{}", serde_json::to_string_pretty(&document).unwrap_or_default());
+        return;
     }
-    println!("scans       {}", stats.scans);
-    println!("scan time   min {min} ns, median {median} ns, p99 {p99} ns, max {max} ns");
-    println!("compile     {compile_ms:.2} ms");
-    println!("size        {code} bytes of code, {data} bytes of data");
+    say!("scans       {}", stats.scans);
+    say!("scan time   min {min} ns, median {median} ns, p99 {p99} ns, max {max} ns");
+    say!("compile     {compile_ms:.2} ms");
+    say!("size        {code} bytes of code, {data} bytes of data");
 }

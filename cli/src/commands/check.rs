@@ -30,7 +30,7 @@ pub fn run(args: Args) -> Status {
     };
     if args.format == "json" {
         let all: Vec<_> = diags.iter().map(|d| diagnostics::json(d, &sources)).collect();
-        println!("{}", serde_json::to_string_pretty(&all).unwrap_or_default());
+        say!("{}", serde_json::to_string_pretty(&all).unwrap_or_default());
     } else {
         diagnostics::print(&diags, &sources);
     }

@@ -14,9 +14,9 @@ pub struct Args {
 pub fn run(args: Args) -> Status {
     match args.code.as_deref() {
         None => list(),
-        Some("takt.toml") => print!("{}", crate::project::REFERENCE),
+        Some("takt.toml") => say!("{}", crate::project::REFERENCE.trim_end()),
         Some(text) => match Code::from_text(text) {
-            Some(code) => print!("{}", code.page()),
+            Some(code) => say!("{}", code.page().trim_end()),
             None => return unknown(text),
         },
     }
@@ -25,7 +25,7 @@ pub fn run(args: Args) -> Status {
 
 fn list() {
     for code in Code::ALL {
-        println!("{}  {}", code.text(), code.title());
+        say!("{}  {}", code.text(), code.title());
     }
 }
 

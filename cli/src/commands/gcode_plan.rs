@@ -82,17 +82,17 @@ fn problem(program: &PartProgram, e: PlanError) -> Problem {
 
 fn print_report(r: &PlanReport, format: &str) {
     if format == "json" {
-        println!("{}", json_report(r));
+        say!("{}", json_report(r));
         return;
     }
-    println!("blocks          {}", r.blocks);
-    println!("length          {:.3} mm", r.length_mm);
-    println!("time            {:.4} s (without acceleration limits {:.4} s)", r.time_s, r.ideal_time_s);
-    println!("path deviation  {:.6} mm", r.max_path_deviation_mm);
-    println!("violations      {}", r.violations);
+    say!("blocks          {}", r.blocks);
+    say!("length          {:.3} mm", r.length_mm);
+    say!("time            {:.4} s (without acceleration limits {:.4} s)", r.time_s, r.ideal_time_s);
+    say!("path deviation  {:.6} mm", r.max_path_deviation_mm);
+    say!("violations      {}", r.violations);
     for i in moving(r) {
         let (v, a, j) = (r.max_velocity[i], r.max_acceleration[i], r.max_jerk[i]);
-        println!("{}               {v:.3} mm/s, {a:.1} mm/s², {j:.0} mm/s³", LETTERS[i]);
+        say!("{}               {v:.3} mm/s, {a:.1} mm/s², {j:.0} mm/s³", LETTERS[i]);
     }
 }
 

@@ -33,7 +33,7 @@ pub fn run(args: Args) -> Status {
     let files = if args.template == "plotter" { PLOTTER } else { BLINK };
     match write(&args.dir, files) {
         Ok(()) => {
-            println!("wrote {}; try: takt run {}", args.dir.display(), args.dir.display());
+            say!("wrote {}; try: takt run {}", args.dir.display(), args.dir.display());
             Status::Success
         }
         Err(message) => {

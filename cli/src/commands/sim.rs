@@ -102,7 +102,7 @@ fn drive(args: &Args, session: &Session, watch: &Watch, resource: &mut Resource)
     };
     let csv = args.format == "csv";
     if csv {
-        println!("scan,time_ns,{}", watch.names().collect::<Vec<_>>().join(","));
+        say!("scan,time_ns,{}", watch.names().collect::<Vec<_>>().join(","));
     }
     if args.scans == Some(0) {
         return Ok(());
@@ -112,7 +112,7 @@ fn drive(args: &Args, session: &Session, watch: &Watch, resource: &mut Resource)
     resource.run_until(&mut clock, deadline, &never, &mut |scan, memory| {
         if csv {
             let cells = watch.values(&image, memory).map(|v| v.map_or_else(String::new, |v| cell(&v.to_string())));
-            println!("{},{},{}", scan.scan, scan.now.0, cells.collect::<Vec<_>>().join(","));
+            say!("{},{},{}", scan.scan, scan.now.0, cells.collect::<Vec<_>>().join(","));
         }
         args.scans.is_none_or(|n| scan.scan < n) && !report::is_true(&image, stop_when.as_ref(), memory)
     });
@@ -135,7 +135,7 @@ fn print_json(session: &Session, watch: &Watch, resource: &Resource, fault: Opti
         "fault": fault,
         "vars": watch.json(&session.image, resource.memory()),
     });
-    println!("{}", serde_json::to_string_pretty(&document).unwrap_or_default());
+    say!("{}", serde_json::to_string_pretty(&document).unwrap_or_default());
 }
 
 /// The stimulus file, then the `--set` values.

@@ -17,7 +17,16 @@ pub struct ProjectFile {
 pub struct ProjectKeys {
     pub name: Option<String>,
     pub sources: Option<Vec<String>>,
-    pub profile: Option<String>,
+    pub profile: LanguageProfile,
+}
+
+/// Dialect of the sources.
+#[derive(Clone, Copy, Debug, Default, Deserialize, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum LanguageProfile {
+    /// IEC 61131-3 as it stands.
+    #[default]
+    Std,
 }
 
 #[derive(Clone, Debug, Default, Deserialize, Serialize)]
