@@ -22,13 +22,10 @@ block! {
 }
 
 fn call(core: &mut Core, f: &mut Frame) {
-    let number = f.reference(P::Cnc);
-    let target = rules::channel(core, number);
-    rules::execute(core, f, &execute_pins!(P), number, target, &Action { start, poll: progress });
+    rules::execute_channel(core, f, &execute_pins!(P), P::Cnc, &Action { start, poll: progress });
 }
 
-fn start(core: &mut Core, f: &mut Frame, channel: usize) -> Result<u32, Code> {
-    let _ = f;
+fn start(core: &mut Core, _: &mut Frame, channel: usize) -> Result<u32, Code> {
     core.channels[channel].abort();
     Ok(0)
 }

@@ -37,9 +37,7 @@ block! {
 
 fn call(core: &mut Core, f: &mut Frame) {
     let target = rules::channel(core, f.reference(P::Cnc));
-    if rules::enable(f, &enable_pins!(P, Valid), target.map(|_| ()))
-        && let Ok(i) = target
-    {
+    if let Some(i) = rules::read(f, &enable_pins!(P, Valid), target) {
         let channel = &mut core.channels[i];
         if f.bool(P::Fault) {
             channel.aux_fault(f.u16(P::FaultID));

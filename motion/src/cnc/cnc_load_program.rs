@@ -24,18 +24,15 @@ block! {
 }
 
 fn call(core: &mut Core, f: &mut Frame) {
-    let number = f.reference(P::Cnc);
-    let target = rules::channel(core, number);
-    rules::execute(
+    let channel = rules::execute_channel(
         core,
         f,
         &execute_pins!(P),
-        number,
-        target,
+        P::Cnc,
         &Action { start, poll: |core, channel, request| Progress::of(core.channels[channel].load_outcome(request).0) },
     );
     if f.bool(P::Done)
-        && let Ok(channel) = target
+        && let Some(channel) = channel
     {
         let request = f.u32(P::Command);
         if core.channels[channel].program_id() == request {

@@ -21,9 +21,9 @@ block! {
 
 fn call(core: &mut Core, f: &mut Frame) {
     let target = rules::channel(core, f.reference(P::Cnc));
-    let valid = rules::enable(f, &enable_pins!(P, Valid), target.map(|_| ()));
-    let note = target.ok().filter(|_| valid).and_then(|i| core.channels[i].error());
-    let code = target.ok().filter(|_| valid).map_or(0, |i| core.channels[i].error_id());
+    let channel = rules::read(f, &enable_pins!(P, Valid), target);
+    let note = channel.and_then(|i| core.channels[i].error());
+    let code = channel.map_or(0, |i| core.channels[i].error_id());
     f.set_u16(P::ErrorCode, code);
     f.set_u32(P::Line, note.map_or(0, |n| n.line));
     f.set_u32(P::Column, note.map_or(0, |n| n.column));

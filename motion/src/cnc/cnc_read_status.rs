@@ -19,10 +19,7 @@ block! {
 
 fn call(core: &mut Core, f: &mut Frame) {
     let target = rules::channel(core, f.reference(P::Cnc));
-    let valid = rules::enable(f, &enable_pins!(P, Valid), target.map(|_| ()));
-    if let Ok(i) = target
-        && valid
-    {
+    if let Some(i) = rules::read(f, &enable_pins!(P, Valid), target) {
         show(&core.channels[i], f);
     }
 }

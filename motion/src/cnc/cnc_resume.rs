@@ -1,8 +1,7 @@
 //! CNC_Resume: goes on after a hold or a program stop (N3).
 //! Runs: cyclic.
 
-use crate::axis::Outcome;
-use crate::natives::rules::{self, Action, Progress};
+use crate::natives::rules::{self, Action};
 use crate::natives::{Core, Frame};
 use crate::{block, execute_pins};
 use takt_base::Code;
@@ -22,12 +21,9 @@ block! {
 }
 
 fn call(core: &mut Core, f: &mut Frame) {
-    let number = f.reference(P::Cnc);
-    let target = rules::channel(core, number);
-    rules::execute(core, f, &execute_pins!(P), number, target, &Action { start, poll: |_, _, _| Progress::of(Outcome::Done) });
+    rules::execute_channel(core, f, &execute_pins!(P), P::Cnc, &Action { start, poll: rules::at_once });
 }
 
-fn start(core: &mut Core, f: &mut Frame, channel: usize) -> Result<u32, Code> {
-    let _ = f;
+fn start(core: &mut Core, _: &mut Frame, channel: usize) -> Result<u32, Code> {
     core.channels[channel].resume().map(|()| 0)
 }

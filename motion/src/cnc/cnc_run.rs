@@ -26,11 +26,9 @@ block! {
 }
 
 fn call(core: &mut Core, f: &mut Frame) {
-    let number = f.reference(P::Cnc);
-    let target = rules::channel(core, number);
-    rules::execute(core, f, &execute_pins!(P motion), number, target, &Action { start, poll: progress });
+    let channel = rules::execute_channel(core, f, &execute_pins!(P motion), P::Cnc, &Action { start, poll: progress });
     if f.bool(P::Busy)
-        && let Ok(channel) = target
+        && let Some(channel) = channel
     {
         f.set_u32(P::Line, core.channels[channel].mark().line);
     }

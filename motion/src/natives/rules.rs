@@ -104,8 +104,35 @@ pub struct Action {
     pub poll: fn(&mut Core, usize, u32) -> Progress,
 }
 
-/// One call of a block with Execute. `number` is what the reference holds, `target` what it leads to.
-pub fn execute(core: &mut Core, f: &mut Frame, pins: &ExecutePins, number: u16, target: Target, action: &Action) {
+/// One call of a block with Execute, for the axis that `pin` refers to. Returns that axis, if there is one.
+pub fn execute_axis(core: &mut Core, f: &mut Frame, pins: &ExecutePins, pin: impl Into<usize>, action: &Action) -> Option<usize> {
+    let number = f.reference(pin);
+    let target = axis(core, number);
+    execute(core, f, pins, number, target, action);
+    target.ok()
+}
+
+/// One call of a block with Execute, for the channel that `pin` refers to. Returns that channel, if there is one.
+pub fn execute_channel(
+    core: &mut Core,
+    f: &mut Frame,
+    pins: &ExecutePins,
+    pin: impl Into<usize>,
+    action: &Action,
+) -> Option<usize> {
+    let number = f.reference(pin);
+    let target = channel(core, number);
+    execute(core, f, pins, number, target, action);
+    target.ok()
+}
+
+/// Poll of a block whose start does everything.
+pub fn at_once(_: &mut Core, _: usize, _: u32) -> Progress {
+    Progress::of(Outcome::Done)
+}
+
+/// `number` is what the reference holds, `target` what it leads to.
+fn execute(core: &mut Core, f: &mut Frame, pins: &ExecutePins, number: u16, target: Target, action: &Action) {
     let execute = f.bool(pins.execute);
     let edge = execute && !f.bool(pins.previous);
     f.set_bool(pins.previous, execute);
@@ -203,4 +230,10 @@ pub fn enable(f: &mut Frame, pins: &EnablePins, result: Result<(), Code>) -> boo
     f.set_bool(pins.error, error.is_some());
     f.set_u16(pins.error_id, error.map_or(0, Code::error_id));
     valid
+}
+
+/// [`enable`] of a block that reads: what it reads from, if its outputs are valid.
+pub fn read(f: &mut Frame, pins: &EnablePins, target: Target) -> Option<usize> {
+    let valid = enable(f, pins, target.map(drop));
+    target.ok().filter(|_| valid)
 }

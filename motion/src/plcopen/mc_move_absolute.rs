@@ -32,9 +32,7 @@ block! {
 }
 
 fn call(core: &mut Core, f: &mut Frame) {
-    let number = f.reference(P::Axis);
-    let target = rules::axis(core, number);
-    rules::execute(core, f, &execute_pins!(P motion), number, target, &Action { start, poll: super::poll });
+    rules::execute_axis(core, f, &execute_pins!(P motion), P::Axis, &Action { start, poll: super::poll });
 }
 
 fn start(core: &mut Core, f: &mut Frame, axis: usize) -> Result<u32, Code> {

@@ -32,12 +32,10 @@ block! {
 }
 
 fn call(core: &mut Core, f: &mut Frame) {
-    let number = f.reference(P::Axis);
-    let target = rules::axis(core, number);
     let pins = execute_pins!(P continuous);
-    rules::execute(core, f, &pins, number, target, &Action { start, poll: super::poll });
+    let axis = rules::execute_axis(core, f, &pins, P::Axis, &Action { start, poll: super::poll });
     let busy = f.bool(P::Busy) && f.bool(P::Active);
-    let there = target.is_ok_and(|axis| core.axes[axis].is_in_velocity(CommandId(f.u32(P::Command))));
+    let there = axis.is_some_and(|axis| core.axes[axis].is_in_velocity(CommandId(f.u32(P::Command))));
     f.set_bool(P::InVelocity, busy && there);
 }
 

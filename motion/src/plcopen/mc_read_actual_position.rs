@@ -18,7 +18,6 @@ block! {
 
 fn call(core: &mut Core, f: &mut Frame) {
     let target = rules::axis(core, f.reference(P::Axis));
-    let valid = rules::enable(f, &enable_pins!(P, Valid), target.map(|_| ()));
-    let position = target.map_or(0.0, |i| core.axes[i].actual_position());
-    f.set_lreal(P::Position, if valid { position } else { 0.0 });
+    let axis = rules::read(f, &enable_pins!(P, Valid), target);
+    f.set_lreal(P::Position, axis.map_or(0.0, |i| core.axes[i].actual_position()));
 }

@@ -18,7 +18,6 @@ block! {
 
 fn call(core: &mut Core, f: &mut Frame) {
     let target = rules::axis(core, f.reference(P::Axis));
-    let valid = rules::enable(f, &enable_pins!(P, Valid), target.map(|_| ()));
-    let velocity = target.map_or(0.0, |i| core.axes[i].actual_velocity());
-    f.set_lreal(P::Velocity, if valid { velocity } else { 0.0 });
+    let axis = rules::read(f, &enable_pins!(P, Valid), target);
+    f.set_lreal(P::Velocity, axis.map_or(0.0, |i| core.axes[i].actual_velocity()));
 }

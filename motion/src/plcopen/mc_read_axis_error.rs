@@ -18,7 +18,7 @@ block! {
 
 fn call(core: &mut Core, f: &mut Frame) {
     let target = rules::axis(core, f.reference(P::Axis));
-    let valid = rules::enable(f, &enable_pins!(P, Valid), target.map(|_| ()));
-    let error = target.ok().filter(|_| valid).and_then(|i| core.axes[i].error());
+    let axis = rules::read(f, &enable_pins!(P, Valid), target);
+    let error = axis.and_then(|i| core.axes[i].error());
     f.set_u16(P::AxisErrorID, error.map_or(0, takt_base::Code::error_id));
 }

@@ -26,8 +26,8 @@ block! {
 
 fn call(core: &mut Core, f: &mut Frame) {
     let target = rules::axis(core, f.reference(P::Axis));
-    let valid = rules::enable(f, &enable_pins!(P, Valid), target.map(|_| ()));
-    let state = target.ok().filter(|_| valid).map(|i| core.axes[i].state());
+    let axis = rules::read(f, &enable_pins!(P, Valid), target);
+    let state = axis.map(|i| core.axes[i].state());
     for (pin, of) in [
         (P::ErrorStop, AxisState::ErrorStop),
         (P::Disabled, AxisState::Disabled),

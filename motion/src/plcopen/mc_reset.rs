@@ -1,8 +1,7 @@
 //! MC_Reset: leaves ErrorStop (PLCopen part 1, §3.20).
 //! Runs: cyclic.
 
-use crate::axis::Outcome;
-use crate::natives::rules::{self, Action, Progress};
+use crate::natives::rules::{self, Action};
 use crate::natives::{Core, Frame};
 use crate::{block, execute_pins};
 use takt_base::Code;
@@ -22,12 +21,9 @@ block! {
 }
 
 fn call(core: &mut Core, f: &mut Frame) {
-    let number = f.reference(P::Axis);
-    let target = rules::axis(core, number);
-    rules::execute(core, f, &execute_pins!(P), number, target, &Action { start, poll: |_, _, _| Progress::of(Outcome::Done) });
+    rules::execute_axis(core, f, &execute_pins!(P), P::Axis, &Action { start, poll: rules::at_once });
 }
 
-fn start(core: &mut Core, f: &mut Frame, axis: usize) -> Result<u32, Code> {
-    let _ = f;
+fn start(core: &mut Core, _: &mut Frame, axis: usize) -> Result<u32, Code> {
     core.axes[axis].reset().map(|()| 0)
 }

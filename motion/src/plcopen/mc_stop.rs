@@ -25,17 +25,14 @@ block! {
 }
 
 fn call(core: &mut Core, f: &mut Frame) {
-    let number = f.reference(P::Axis);
-    let target = rules::axis(core, number);
-    rules::execute(
+    let axis = rules::execute_axis(
         core,
         f,
         &execute_pins!(P, rules::ABSENT, P::CommandAborted as usize),
-        number,
-        target,
+        P::Axis,
         &Action { start, poll: super::poll },
     );
-    if let Ok(axis) = target {
+    if let Some(axis) = axis {
         core.axes[axis].hold_stop(CommandId(f.u32(P::Command)), f.bool(P::Execute));
     }
 }
