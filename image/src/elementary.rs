@@ -1,6 +1,7 @@
 //! The elementary types of IEC 61131-3 §6.4.2: width, range, generic group, and which converts to which without a call.
 //! One home: checker, layout, library catalogue and monitor all ask here.
 
+use crate::natives::Scalar;
 use Elementary as E;
 
 macro_rules! elementary {
@@ -80,6 +81,17 @@ impl Elementary {
     /// Number of value bits; 1 for BOOL.
     pub const fn bits(self) -> u32 {
         if matches!(self, E::Bool) { 1 } else { self.bytes() * 8 }
+    }
+    /// The register that holds it.
+    pub const fn scalar(self) -> Scalar {
+        match (self, self.bytes()) {
+            (E::Real, _) => Scalar::F32,
+            (E::Lreal, _) => Scalar::F64,
+            (_, 1) => Scalar::I8,
+            (_, 2) => Scalar::I16,
+            (_, 4) => Scalar::I32,
+            _ => Scalar::I64,
+        }
     }
     /// SINT, INT, DINT, LINT.
     pub const fn is_signed_int(self) -> bool {

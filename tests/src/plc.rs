@@ -127,7 +127,8 @@ impl Side {
     }
 }
 
-fn initial_memory(image: &Image) -> Vec<u8> {
+/// Memory of an image before the first scan.
+pub fn initial_memory(image: &Image) -> Vec<u8> {
     let mut memory = vec![0; image.memory.size() as usize];
     for chunk in &image.init {
         memory[chunk.offset as usize..][..chunk.bytes.len()].copy_from_slice(&chunk.bytes);

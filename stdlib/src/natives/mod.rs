@@ -156,7 +156,7 @@ fn resolve(pattern: Pattern, ty: ConversionType) -> ConversionType {
 
 fn push(params: &mut Vec<Scalar>, pattern: Pattern, ty: ConversionType) {
     match resolve(pattern, ty) {
-        ConversionType::Elementary(e) => params.push(scalar(e)),
+        ConversionType::Elementary(e) => params.push(e.scalar()),
         _ => params.extend([Scalar::I32, Scalar::I32]),
     }
 }
@@ -164,22 +164,10 @@ fn push(params: &mut Vec<Scalar>, pattern: Pattern, ty: ConversionType) {
 /// A scalar result, or two more slots for a string.
 fn result(params: &mut Vec<Scalar>, pattern: Pattern, ty: ConversionType) -> Option<Scalar> {
     match resolve(pattern, ty) {
-        ConversionType::Elementary(e) => Some(scalar(e)),
+        ConversionType::Elementary(e) => Some(e.scalar()),
         _ => {
             params.extend([Scalar::I32, Scalar::I32]);
             None
         }
-    }
-}
-
-/// The machine type of an elementary type.
-fn scalar(ty: Elementary) -> Scalar {
-    match (ty, ty.bytes()) {
-        (Elementary::Real, _) => Scalar::F32,
-        (Elementary::Lreal, _) => Scalar::F64,
-        (_, 1) => Scalar::I8,
-        (_, 2) => Scalar::I16,
-        (_, 4) => Scalar::I32,
-        _ => Scalar::I64,
     }
 }

@@ -1,10 +1,10 @@
 //! A loaded program without a scheduler: what a scan costs by itself.
 
 use takt_base::Nanos;
-use takt_image::{Engine, Image, header};
+use takt_image::{Engine, Image};
 use takt_runtime::NativeEngine;
 use takt_stdlib::Library;
-use takt_tests::plc::compile_st;
+use takt_tests::plc::{compile_st, initial_memory};
 
 /// Native code, its memory and the library.
 pub struct Loaded {
@@ -22,11 +22,7 @@ impl Loaded {
         let image = compilation.image.unwrap_or_else(|| panic!("{:?}", compilation.diags));
         let mut natives = Library::new();
         let engine = NativeEngine::new(&image, &mut natives).expect("image loads");
-        let mut memory = vec![0; image.memory.size() as usize];
-        for chunk in &image.init {
-            memory[chunk.offset as usize..][..chunk.bytes.len()].copy_from_slice(&chunk.bytes);
-        }
-        memory[header::FRAME_LIMIT as usize..][..4].copy_from_slice(&image.memory.frames.end().to_le_bytes());
+        let memory = initial_memory(&image);
         Self { image, engine, natives, memory, now: Nanos::ZERO }
     }
 

@@ -7,7 +7,7 @@ use super::builder::behind;
 use super::expr::{Text, Value};
 use super::native::slot_of;
 use super::place::{Loc, field};
-use super::shape::{Shape, scalar};
+use super::shape::Shape;
 use super::unit::Unit;
 use super::walk::argument_calls;
 use crate::hir::model::*;
@@ -60,7 +60,7 @@ impl Unit<'_, '_> {
     fn result_place(&mut self, result: Option<TypeId>) -> (Option<Local>, Option<Local>, Option<Value>) {
         let Some(ty) = result else { return (None, None, None) };
         if let Shape::Scalar(e) = self.shape(ty) {
-            let dst = self.f.local(scalar(e));
+            let dst = self.f.local(e.scalar());
             return (Some(dst), None, Some(Value::Scalar(dst)));
         }
         let layout = self.hir.types.layout(ty);

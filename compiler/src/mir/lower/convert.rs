@@ -1,7 +1,6 @@
 //! Conversions between scalar types. From: library reference §2.
 
 use super::interval::Interval;
-use super::shape::scalar;
 use super::unit::Unit;
 use crate::hir::model::*;
 use crate::mir::model::*;
@@ -21,17 +20,17 @@ impl Unit<'_, '_> {
         let target = self.hir.elementary(to).expect("a scalar");
         match how {
             Conversion::Integer => self.integer(x, from, target),
-            Conversion::ZeroExtend => self.f.resize(x, scalar(target), false),
+            Conversion::ZeroExtend => self.f.resize(x, target.scalar(), false),
             Conversion::NonZero => self.non_zero(x, from),
             Conversion::LowBit => {
-                let byte = self.f.resize(x, scalar(Elementary::Bool), false);
+                let byte = self.f.resize(x, Elementary::Bool.scalar(), false);
                 self.f.binary_const(BinaryOp::And, byte, 1)
             }
-            Conversion::IntToReal => self.integer_to_float(x, from, scalar(target)),
+            Conversion::IntToReal => self.integer_to_float(x, from, target.scalar()),
             Conversion::RealToInt => self.float_to_integer(x, target),
             Conversion::Real if from == target => x,
-            Conversion::Real => self.f.convert(Convert::Float, scalar(target), x),
-            Conversion::Bits => self.f.convert(Convert::Bits, scalar(target), x),
+            Conversion::Real => self.f.convert(Convert::Float, target.scalar(), x),
+            Conversion::Bits => self.f.convert(Convert::Bits, target.scalar(), x),
             Conversion::Subrange => {
                 self.check_subrange(x, from, to, known);
                 self.integer(x, from, target)
@@ -41,13 +40,13 @@ impl Unit<'_, '_> {
     }
 
     fn integer(&mut self, x: Local, from: Elementary, to: Elementary) -> Local {
-        let resized = self.f.resize(x, scalar(to), from.is_signed_storage());
+        let resized = self.f.resize(x, to.scalar(), from.is_signed_storage());
         let may_be_more = to == Elementary::Bool && from != Elementary::Bool;
         if may_be_more { self.f.binary_const(BinaryOp::And, resized, 1) } else { resized }
     }
 
     fn non_zero(&mut self, x: Local, from: Elementary) -> Local {
-        let zero = self.f.zero(scalar(from));
+        let zero = self.f.zero(from.scalar());
         self.f.compare(if from.is_real() { Compare::FNe } else { Compare::Ne }, x, zero)
     }
 
@@ -59,7 +58,7 @@ impl Unit<'_, '_> {
             return;
         }
         if low > high {
-            let always = self.f.int(scalar(Elementary::Bool), 1);
+            let always = self.f.int(Elementary::Bool.scalar(), 1);
             return self.f.trap_if(Trap::Range, always);
         }
         let distance = self.f.binary_const(BinaryOp::Sub, x, low as i64);

@@ -3,7 +3,7 @@
 use super::builder::{at, fixed};
 use super::data::bytes_of;
 use super::place::Loc;
-use super::shape::{Shape, scalar};
+use super::shape::Shape;
 use super::unit::Unit;
 use crate::hir::model::*;
 use crate::mir::model::*;
@@ -88,7 +88,7 @@ impl Unit<'_, '_> {
 
     /// A constant in a register.
     pub fn constant(&mut self, e: Elementary, value: &Const) -> Local {
-        let s = scalar(e);
+        let s = e.scalar();
         match value {
             Const::Int(i) if s == Scalar::F32 => self.f.float(s, *i as f32 as f64),
             Const::Int(i) if s == Scalar::F64 => self.f.float(s, *i as f64),

@@ -3,7 +3,6 @@
 use super::builder::fixed;
 use super::expr::{Text, Value};
 use super::operator::Operand;
-use super::shape::scalar;
 use super::unit::Unit;
 use crate::hir::model::*;
 use crate::mir::model::*;
@@ -67,7 +66,7 @@ impl Unit<'_, '_> {
     /// `x - x` is 0 for all numbers, NaN for NaN and the infinities.
     fn is_finite(&mut self, x: Operand) -> Local {
         let nothing = self.f.binary(BinaryOp::FSub, x.local, x.local);
-        let zero = self.f.zero(scalar(x.e));
+        let zero = self.f.zero(x.e.scalar());
         self.f.compare(Compare::FEq, nothing, zero)
     }
 

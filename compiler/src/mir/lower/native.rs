@@ -2,7 +2,7 @@
 //! From: `takt_image::natives`.
 
 use super::expr::{Text, Value};
-use super::shape::{Shape, scalar};
+use super::shape::Shape;
 use super::unit::Unit;
 use crate::hir::model::*;
 use crate::mir::model::*;
@@ -58,7 +58,7 @@ impl Unit<'_, '_> {
     fn native_result(&mut self, result: Shape, slots: &mut Vec<NativeArg>) -> (Option<Local>, Value) {
         match result {
             Shape::Scalar(e) => {
-                let dst = self.f.local(scalar(e));
+                let dst = self.f.local(e.scalar());
                 (Some(dst), Value::Scalar(dst))
             }
             Shape::Text { capacity, unit } => {

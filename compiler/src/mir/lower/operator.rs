@@ -2,7 +2,6 @@
 //! From: language reference §5.3, §5.4; library reference §4, §6.2.
 
 use super::expr::Value;
-use super::shape::scalar;
 use super::unit::Unit;
 use crate::hir::model::*;
 use crate::mir::model::*;
@@ -134,7 +133,7 @@ impl Unit<'_, '_> {
     /// Real to integer toward zero; saturates, NaN gives 0.
     pub fn truncate(&mut self, x: Local, e: Elementary) -> Local {
         let how = if e.is_signed_storage() { Convert::FloatToSigned } else { Convert::FloatToUnsigned };
-        self.f.convert(how, scalar(e), x)
+        self.f.convert(how, e.scalar(), x)
     }
 }
 

@@ -1,7 +1,7 @@
 //! Places: where a variable, field, element, bit or character is, and how it is read and written.
 
 use super::builder::{at, behind, fixed};
-use super::shape::{Shape, scalar, shape};
+use super::shape::{Shape, shape};
 use super::unit::{Home, Unit};
 use crate::hir::model::*;
 use crate::mir::model::*;
@@ -164,7 +164,7 @@ impl Unit<'_, '_> {
     /// The register of a scalar type.
     pub fn scalar(&self, ty: TypeId) -> Scalar {
         match shape(&self.hir.types, ty) {
-            Shape::Scalar(e) => scalar(e),
+            Shape::Scalar(e) => e.scalar(),
             _ => unreachable!("{} is not a scalar", self.hir.types.display(ty)),
         }
     }

@@ -1,6 +1,6 @@
 //! How a value of a type is handled: in a register, as a zero-ended string, or as bytes.
 
-use takt_image::{Elementary, Scalar, Type, TypeId, TypeTable};
+use takt_image::{Elementary, Type, TypeId, TypeTable};
 
 /// Handling of a type's values.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -26,17 +26,5 @@ pub fn shape(types: &TypeTable, ty: TypeId) -> Shape {
         Type::WString { capacity } => Shape::Text { capacity: *capacity, unit: 2 },
         Type::Reference { .. } => Shape::Scalar(Elementary::Udint),
         Type::Array { .. } | Type::Struct(_) | Type::Instance(_) => Shape::Bytes,
-    }
-}
-
-/// The register of an elementary type.
-pub fn scalar(e: Elementary) -> Scalar {
-    match (e, e.bytes()) {
-        (Elementary::Real, _) => Scalar::F32,
-        (Elementary::Lreal, _) => Scalar::F64,
-        (_, 1) => Scalar::I8,
-        (_, 2) => Scalar::I16,
-        (_, 4) => Scalar::I32,
-        _ => Scalar::I64,
     }
 }

@@ -7,7 +7,7 @@ use super::Program;
 use super::builder::{Builder, at, behind};
 use super::counted::Counter;
 use super::place::{Loc, field};
-use super::shape::{Shape, scalar, shape};
+use super::shape::{Shape, shape};
 use super::walk::{self, Event};
 use crate::hir::model::*;
 use crate::mir::model::*;
@@ -80,7 +80,7 @@ impl Pou {
     /// The register of a scalar result.
     fn result_scalar(&self, hir: &Hir) -> Option<Scalar> {
         match shape(&hir.types, self.vars[self.result?].ty) {
-            Shape::Scalar(e) => Some(scalar(e)),
+            Shape::Scalar(e) => Some(e.scalar()),
             _ => None,
         }
     }
@@ -242,7 +242,7 @@ impl<'p, 'h> Unit<'p, 'h> {
 
     fn incoming(&mut self, var: &Var) -> Local {
         match self.shape(var.ty) {
-            Shape::Scalar(e) if var.role == Role::Input => self.param(scalar(e)),
+            Shape::Scalar(e) if var.role == Role::Input => self.param(e.scalar()),
             _ => self.reference_param(),
         }
     }
@@ -268,7 +268,7 @@ impl<'p, 'h> Unit<'p, 'h> {
 
     fn local_home(&mut self, id: VarId, var: &Var) -> Home {
         match self.shape(var.ty) {
-            Shape::Scalar(e) if !self.lent.contains(&id) => Home::Register(self.f.local(scalar(e))),
+            Shape::Scalar(e) if !self.lent.contains(&id) => Home::Register(self.f.local(e.scalar())),
             _ => Home::Memory(self.frame_space(var)),
         }
     }
