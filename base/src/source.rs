@@ -134,11 +134,6 @@ impl Source {
         let end = self.line_starts.get(line as usize).map_or(self.text.len(), |&e| e as usize);
         self.text[start as usize..end].trim_end_matches(['\n', '\r', '\x0c'])
     }
-
-    /// Number of lines.
-    pub fn line_count(&self) -> u32 {
-        self.line_starts.len() as u32
-    }
 }
 
 /// Offsets just behind each LF, CRLF or lone CR.

@@ -27,10 +27,6 @@ impl Nanos {
     pub fn as_secs(self) -> f64 {
         self.0 as f64 / 1e9
     }
-    /// In microseconds.
-    pub fn as_micros(self) -> f64 {
-        self.0 as f64 / 1e3
-    }
 }
 
 impl std::ops::Add for Nanos {

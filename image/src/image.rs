@@ -81,6 +81,16 @@ pub enum Place {
     Bit(u32, u8),
 }
 
+impl Place {
+    /// A BOOL. `None` if it does not lie inside the memory.
+    pub fn bool(self, memory: &[u8]) -> Option<bool> {
+        match self {
+            Place::Byte(offset) => memory.get(offset as usize).map(|&b| b != 0),
+            Place::Bit(offset, bit) => memory.get(offset as usize).map(|&b| b >> (bit & 7) & 1 == 1),
+        }
+    }
+}
+
 /// Compiled code of one unit. Called as `extern "sysv64" fn(memory: *mut u8, frame: u32, args...)`; an entry of a task has one
 /// argument, the offset of the program instance (u32).
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -140,11 +150,6 @@ pub struct Program {
 }
 
 impl Image {
-    /// The function that contains a code offset.
-    pub fn function_at(&self, offset: u32) -> Option<u32> {
-        let i = self.functions.partition_point(|f| f.start <= offset).checked_sub(1)?;
-        (offset < self.functions[i].start + self.functions[i].size).then_some(i as u32)
-    }
     /// File and line of a code offset.
     pub fn line_at(&self, offset: u32) -> Option<LineSite> {
         let i = self.lines.partition_point(|l| l.offset <= offset).checked_sub(1)?;

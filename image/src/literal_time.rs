@@ -6,8 +6,8 @@ use crate::literal::digits;
 
 const SECOND: i64 = 1_000_000_000;
 const DAY: i64 = 86_400 * SECOND;
-/// Units of a duration in descending order.
-const UNITS: [(&str, i64); 7] =
+/// Units of a duration in descending order, in nanoseconds.
+pub const UNITS: [(&str, i64); 7] =
     [("d", DAY), ("h", 3600 * SECOND), ("m", 60 * SECOND), ("s", SECOND), ("ms", 1_000_000), ("us", 1_000), ("ns", 1)];
 
 /// The shortest literal of a time or date: `T#1s500ms`, `D#2024-02-29`, `TOD#07:05:03.25`, `DT#2024-02-29-07:05:03`.
@@ -53,7 +53,7 @@ fn time_of_day(ns: i64) -> String {
 
 /// Year, month and day of a day number from 1970-01-01, in the proleptic Gregorian calendar. Years begin in March here, so that the
 /// leap day comes last; 146,097 days are 400 years.
-fn civil(days: i64) -> (i64, i64, i64) {
+pub fn civil(days: i64) -> (i64, i64, i64) {
     let z = days + 719_468;
     let era = z.div_euclid(146_097);
     let doe = z.rem_euclid(146_097);
@@ -65,7 +65,7 @@ fn civil(days: i64) -> (i64, i64, i64) {
 }
 
 /// The day number of a date, if there is such a day; years 1 to 9999.
-fn day_number(y: i64, m: i64, d: i64) -> Option<i64> {
+pub fn day_number(y: i64, m: i64, d: i64) -> Option<i64> {
     if !(1..=9999).contains(&y) || !(1..=12).contains(&m) || !(1..=31).contains(&d) {
         return None;
     }

@@ -55,7 +55,7 @@ pub enum Value {
 /// Reads a variable. `None` if it does not lie inside the memory.
 pub fn read(types: &TypeTable, memory: &[u8], place: Place, ty: impl Into<VarType>) -> Option<Value> {
     match (place, ty.into()) {
-        (Place::Bit(offset, bit), _) => Some(Value::Bool(memory.get(offset as usize)? >> (bit & 7) & 1 == 1)),
+        (Place::Bit(..), _) => place.bool(memory).map(Value::Bool),
         (Place::Byte(offset), VarType::Direct(e)) => elementary(memory, offset, e),
         (Place::Byte(offset), VarType::Declared(id)) => declared(types, memory, offset, id),
     }

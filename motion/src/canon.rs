@@ -17,6 +17,18 @@ pub struct Position {
     pub c: f64,
 }
 
+impl From<[f64; 6]> for Position {
+    fn from([x, y, z, a, b, c]: [f64; 6]) -> Self {
+        Self { x, y, z, a, b, c }
+    }
+}
+
+impl From<Position> for [f64; 6] {
+    fn from(p: Position) -> Self {
+        [p.x, p.y, p.z, p.a, p.b, p.c]
+    }
+}
+
 /// Selected plane (CM-28). The first and second axis of XZ are Z and X (report §3.6.1).
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 #[allow(missing_docs)]

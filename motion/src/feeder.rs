@@ -191,7 +191,7 @@ impl Feeder {
         let mut run = RunReader::new(work, *start);
         for step in steps.take(CHECKED_STEPS) {
             let step = step.map_err(|diag| Box::new(note_of_diag(&diag, &sources)))?;
-            let mark = mark_of(&step);
+            let mark = Mark::from(&step);
             run.read(&step, &mut |_, _| {}).map_err(|e| Box::new(note_of_error(&e, mark)))?;
         }
         Ok(())
@@ -237,7 +237,7 @@ impl Running {
     fn advance(&mut self, config: &FeederConfig) {
         match self.steps.next() {
             Some(Ok(step)) => {
-                self.mark = mark_of(&step);
+                self.mark = Mark::from(&step);
                 if let Err(error) = self.read(&step, config) {
                     self.fail(note_of_error(&error, self.mark));
                 }
@@ -312,14 +312,9 @@ fn pulses(m: &Move, config: &FeederConfig, blu_mm: f64, batch_max: u32) -> Resul
 fn open(program: &Program, start: &Point, reader: &Reader, modes: &str) -> (Sources, Steps) {
     let mut sources = Sources::new();
     let source = sources.add(program.name.clone(), &*program.text);
-    let [x, y, z, a, b, c] = *start;
-    let start = Position { x, y, z, a, b, c };
+    let start = (*start).into();
     let steps = reader(&PartProgram { source, text: program.text.clone(), start, modes: modes.to_owned() });
     (sources, steps)
-}
-
-fn mark_of(step: &Step) -> Mark {
-    Mark { block: step.block, line: step.line, n: step.n.unwrap_or(0) }
 }
 
 fn note_of_error(error: &RunError, mark: Mark) -> ErrorNote {

@@ -94,7 +94,7 @@ fn released(
     let mut planner = Planner::new(config.axes, config.period_s, 0);
     let mut mark = Mark::default();
     for step in steps {
-        mark = Mark { block: step.block, line: step.line, n: step.n.unwrap_or(0) };
+        mark = Mark::from(&step);
         let mut emit = |mark, item| put(&mut planner, config, report, mark, item);
         reader.read(&step, &mut emit).map_err(|error| PlanError { mark, error })?;
     }

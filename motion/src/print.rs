@@ -83,7 +83,7 @@ fn numbers(values: &[f64]) -> String {
 }
 
 fn position(p: &Position) -> String {
-    numbers(&[p.x, p.y, p.z, p.a, p.b, p.c])
+    numbers(&<[f64; 6]>::from(*p))
 }
 
 fn arc(a: &Arc) -> String {

@@ -2,12 +2,12 @@
 //! functions.
 //! Runs: background. From: CM-25..CM-28, CM-40..CM-43, CM-60..CM-63, sync classes of M codes as in LinuxCNC and scenario S39.
 
-use crate::canon::{Arc, Canon, MotionMode, Plane, Position, ProgramEnd, Step, Units};
+use crate::canon::{Arc, Canon, MotionMode, Plane, Position, ProgramEnd, Step};
 use crate::geometry::{AXES, Path, Point};
 use crate::lookahead::Move;
+use crate::ngc::modal::mm_per_unit;
 use crate::segment::{Action, AuxCodes, Mark};
 use takt_base::Code;
-use takt_base::units::MM_PER_INCH;
 
 /// What the machine can do, as far as a part program can ask for too much.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -44,13 +44,6 @@ pub struct RunError {
     pub code: Code,
     /// The sentence.
     pub text: String,
-}
-
-impl RunError {
-    /// Which rule.
-    pub fn code(&self) -> Code {
-        self.code
-    }
 }
 
 impl std::fmt::Display for RunError {
@@ -105,7 +98,7 @@ impl RunReader {
 
     /// Reads one command; what it amounts to goes to `emit`.
     pub fn read(&mut self, step: &Step, emit: Emit) -> Result<(), RunError> {
-        let mark = Mark { block: step.block, line: step.line, n: step.n.unwrap_or(0) };
+        let mark = Mark::from(step);
         if self.aux.is_some_and(|(m, _)| m.block != mark.block) {
             self.flush_aux(emit);
         }
@@ -134,7 +127,7 @@ impl RunReader {
     fn set_state(&mut self, command: &Canon) -> Result<bool, RunError> {
         match command {
             Canon::SelectPlane(plane) => self.plane = *plane,
-            Canon::UseLengthUnits(units) => self.unit_mm = unit_mm(*units),
+            Canon::UseLengthUnits(units) => self.unit_mm = mm_per_unit(*units),
             Canon::SetOriginOffsets(p) => self.origin = self.scaled(p),
             Canon::UseToolLengthOffset(length) => self.tool_length = length * self.unit_mm,
             Canon::SetFeedRate(rate) => self.feed_mm_s = rate * self.unit_mm / 60.0,
@@ -324,14 +317,6 @@ fn m_code(command: &Canon) -> Option<u16> {
     })
 }
 
-fn unit_mm(units: Units) -> f64 {
-    match units {
-        Units::Inches => MM_PER_INCH,
-        Units::Mm => 1.0,
-        Units::Cm => 10.0,
-    }
-}
-
 /// CM-62, CM-63. The interpreter knows the tolerance of its dialect; this keeps wild arcs out whoever made the commands.
 fn check_radius(start: &Point, end: &Point, i: usize, j: usize, centre: [f64; 2], rotation: i32) -> Result<(), RunError> {
     let radius = |p: &Point| libm::hypot(p[i] - centre[0], p[j] - centre[1]);
@@ -351,6 +336,7 @@ fn unsupported(what: &str) -> RunError {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::canon::Units;
 
     fn read(work: Work, commands: &[(u32, Canon)]) -> Result<Vec<Item>, RunError> {
         let mut reader = RunReader::new(work, [0.0; 6]);

@@ -1,7 +1,8 @@
 //! What passes the ring from look-ahead to execution.
 //! Runs: both. Everything is `Copy` and of fixed size: the cyclic side neither allocates nor frees.
 
-use crate::geometry::{Path, Point};
+use crate::canon::Step;
+use crate::geometry::Path;
 use crate::profile::Profile;
 use crate::pulse::PulseMove;
 use takt_base::Code;
@@ -15,6 +16,12 @@ pub struct Mark {
     pub line: u32,
     /// N word; 0 if there is none.
     pub n: u32,
+}
+
+impl From<&Step> for Mark {
+    fn from(step: &Step) -> Self {
+        Self { block: step.block, line: step.line, n: step.n.unwrap_or(0) }
+    }
 }
 
 /// A planned path element.
@@ -132,6 +139,3 @@ pub struct Planned {
     /// What to do.
     pub action: Action,
 }
-
-/// A point that nothing has set.
-pub const ORIGIN: Point = [0.0; 6];

@@ -50,11 +50,6 @@ impl Tracker {
         Tracker { position: start, origin: Position::default(), units: Units::Mm, plane: Plane::Xy, feed: 0.0 }
     }
 
-    /// Where the controlled point is: machine coordinates, mm and degrees.
-    pub fn position(&self) -> Position {
-        self.position
-    }
-
     /// The move that a command makes, if it moves. `None` as well for an arc of rotation 0 whose end moved (CM-62).
     pub fn follow(&mut self, command: &Canon) -> Option<Move> {
         match command {

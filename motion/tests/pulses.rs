@@ -65,7 +65,7 @@ fn pc_t6_wrap() {
 #[test]
 fn pc_t7_record() {
     let (p, record, _) = run(1.0, Preload::Half);
-    let mut port = SimulatedPort::new(0);
+    let mut port = SimulatedPort::default();
     port.reset();
     for k in &record {
         port.write(k & !7);

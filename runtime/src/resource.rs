@@ -180,10 +180,6 @@ impl Resource {
     pub fn memory(&self) -> &[u8] {
         &self.memory
     }
-    /// The memory, to write variables between two scans.
-    pub fn memory_mut(&mut self) -> &mut [u8] {
-        &mut self.memory
-    }
     /// Whether it runs.
     pub fn state(&self) -> State {
         self.state

@@ -7,7 +7,7 @@ use crate::clock::{Clock, stopwatch};
 use crate::record::FaultRecord;
 use crate::resource::{OnFault, Resource, ScanInfo, State};
 use takt_base::Nanos;
-use takt_image::{Fault, header};
+use takt_image::Fault;
 
 impl Resource {
     /// Runs a task that is ready.
@@ -37,8 +37,6 @@ impl Resource {
 
     /// The programs in declaration order, to the end or to the first fault.
     fn run_programs(&mut self, task: usize, now: Nanos) -> Result<(), (usize, Fault)> {
-        let at = header::NOW as usize;
-        self.memory[at..at + 8].copy_from_slice(&now.0.to_le_bytes());
         let budget = self.tasks[task].watchdog;
         for (i, p) in self.image.tasks[task].programs.iter().enumerate() {
             self.engine.run(p.function, p.instance, now, budget, &mut self.memory, &mut *self.host).map_err(|f| (i, f))?;

@@ -56,7 +56,7 @@ impl TaskState {
     /// interval does not count.
     pub fn sample(&mut self, now: Nanos, memory: &[u8]) {
         let Some(place) = self.trigger.filter(|_| !self.stopped) else { return };
-        let level = is_set(memory, place);
+        let level = place.bool(memory).unwrap_or(false);
         if level && !self.level {
             self.stats.overruns += u64::from(self.edge.is_some());
             self.edge = self.edge.or(Some(now));
@@ -107,14 +107,6 @@ impl TaskState {
         let passed = (t - self.next).0.max(0) / interval.0 + 1;
         self.next += Nanos(passed.saturating_mul(interval.0));
         passed as u64
-    }
-}
-
-/// A BOOL in the memory.
-fn is_set(memory: &[u8], place: Place) -> bool {
-    match place {
-        Place::Byte(offset) => memory.get(offset as usize).is_some_and(|&b| b != 0),
-        Place::Bit(offset, bit) => memory.get(offset as usize).is_some_and(|&b| b >> (bit & 7) & 1 == 1),
     }
 }
 

@@ -1,6 +1,9 @@
 //! The calendar of DATE and DT: proleptic Gregorian, no leap seconds, no zone. Instants are i64 nanoseconds since 1970-01-01, which
 //! reach from the year 1677 to 2262. From: library reference §8.2.
 
+use takt_image::literal_time::civil;
+pub use takt_image::literal_time::day_number as days_from_date;
+
 /// Nanoseconds in a day.
 pub const DAY_NS: i64 = 86_400_000_000_000;
 /// Nanoseconds in a second.
@@ -8,29 +11,9 @@ pub const SECOND_NS: i64 = 1_000_000_000;
 /// Nanoseconds in a millisecond.
 pub const MILLISECOND_NS: i64 = 1_000_000;
 
-/// Days from 1970-01-01 to a day; `None` if the month does not have it or the year is not 1 to 9999.
-pub fn days_from_date(year: i64, month: i64, day: i64) -> Option<i64> {
-    if !(1..=9999).contains(&year) || !(1..=12).contains(&month) || day < 1 || day > days_in_month(year, month) {
-        return None;
-    }
-    // Years begin in March, so that the leap day is the last.
-    let (y, m) = if month > 2 { (year, month - 3) } else { (year - 1, month + 9) };
-    Some(y * 365 + y / 4 - y / 100 + y / 400 + (m * 153 + 2) / 5 + day - 1 - DAYS_TO_1970)
-}
-
-/// Days from 0000-03-01 to 1970-01-01.
-const DAYS_TO_1970: i64 = 719_468;
-
 /// Year, month and day of an instant.
 pub fn date_of(instant_ns: i64) -> (i64, i64, i64) {
-    let days = instant_ns.div_euclid(DAY_NS) + DAYS_TO_1970;
-    let (era, day) = (days.div_euclid(146_097), days.rem_euclid(146_097));
-    let year = (day - day / 1460 + day / 36_524 - day / 146_096) / 365;
-    let day = day - (365 * year + year / 4 - year / 100);
-    let month = (5 * day + 2) / 153;
-    let day = day - (153 * month + 2) / 5 + 1;
-    let year = era * 400 + year;
-    if month < 10 { (year, month + 3, day) } else { (year + 1, month - 9, day) }
+    civil(instant_ns.div_euclid(DAY_NS))
 }
 
 /// Midnight of a day in nanoseconds since 1970-01-01; `None` if there is no such day or it can't be represented.
@@ -58,15 +41,6 @@ pub fn time_of_day(instant_ns: i64) -> i64 {
 /// 0 = Sunday to 6 = Saturday.
 pub fn day_of_week(instant_ns: i64) -> i64 {
     (instant_ns.div_euclid(DAY_NS) + 4).rem_euclid(7)
-}
-
-fn days_in_month(year: i64, month: i64) -> i64 {
-    match month {
-        2 if year % 4 == 0 && (year % 100 != 0 || year % 400 == 0) => 29,
-        2 => 28,
-        4 | 6 | 9 | 11 => 30,
-        _ => 31,
-    }
 }
 
 #[cfg(test)]

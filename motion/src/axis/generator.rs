@@ -107,11 +107,6 @@ impl Generator {
         self.cruise.is_none() && self.elapsed >= self.duration() - 1e-9
     }
 
-    /// Where it ends; not a number for an endless motion.
-    pub fn end(&self) -> f64 {
-        self.end
-    }
-
     /// Seconds in all.
     pub fn duration(&self) -> f64 {
         self.phases.iter().map(|(t, _)| t).sum()

@@ -134,10 +134,6 @@ impl Axis {
     pub fn has_power(&self) -> bool {
         self.stage.is_on()
     }
-    /// Power is asked for.
-    pub fn is_enabled(&self) -> bool {
-        self.power.enable
-    }
     /// Configuration.
     pub fn config(&self) -> &AxisConfig {
         &self.config
@@ -262,7 +258,7 @@ impl Axis {
         let blocked = v > 0.0 && !self.power.positive || v < 0.0 && !self.power.negative;
         if blocked
             && matches!(self.state, AxisState::DiscreteMotion | AxisState::ContinuousMotion)
-            && self.history.outcome(self.command, self.command) == Outcome::Running
+            && self.is_active(self.command)
         {
             self.end_all(Outcome::Error(Code::DirectionBlocked));
             self.event(AxisEvent::Halt);
@@ -328,11 +324,6 @@ impl Axis {
         if self.state == AxisState::SynchronizedMotion {
             self.event(AxisEvent::Done);
         }
-    }
-
-    /// True while a channel has the axis.
-    pub fn is_joined(&self) -> bool {
-        self.joined
     }
 
     /// Set position of this tick, from the channel that has the axis.

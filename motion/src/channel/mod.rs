@@ -298,7 +298,7 @@ impl Channel {
     fn act(&mut self, step: &Planned) -> bool {
         self.mark = step.mark;
         match &step.action {
-            Action::Pulse(m) => self.pulses.as_mut().is_some_and(|p| p.start(m)),
+            Action::Pulse(m) => self.pulses.as_mut().map(|p| p.start(m)).is_some(),
             Action::Aux(codes) if !codes.wait || !self.listened => {
                 self.aux.note(*codes);
                 true

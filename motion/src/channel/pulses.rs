@@ -6,9 +6,6 @@ use crate::geometry::{AXES, Point};
 use crate::machine::config::ChannelMode;
 use crate::pulse::{PulseExecutor, PulseMove};
 
-/// Points that the plotter of the simulated device keeps.
-const PLOT_POINTS: usize = 100_000;
-
 /// Step output of a channel.
 #[derive(Clone, Debug)]
 pub struct PulseOutput {
@@ -29,7 +26,7 @@ impl PulseOutput {
     pub fn new(mode: &ChannelMode) -> Option<Self> {
         let ChannelMode::ReferencePulse { blu_mm, preload, record_max, .. } = *mode else { return None };
         Some(Self {
-            driver: StepDriver::new(SimulatedPort::new(PLOT_POINTS), record_max),
+            driver: StepDriver::new(SimulatedPort::default(), record_max),
             executor: PulseExecutor::new(preload),
             blu_mm,
             counts: [0; 3],
@@ -48,11 +45,10 @@ impl PulseOutput {
         self.feed_mm = 0.0;
     }
 
-    /// Begins a move; always true.
-    pub fn start(&mut self, m: &PulseMove) -> bool {
+    /// Begins a move.
+    pub fn start(&mut self, m: &PulseMove) {
         self.executor.start(m);
         self.current_mm = m.feed_mm;
-        true
     }
 
     /// A tick begins.
@@ -98,10 +94,6 @@ impl PulseOutput {
     /// It waits for the end of a hold.
     pub fn is_held(&self) -> bool {
         self.held
-    }
-    /// Position of each axis in BLU.
-    pub fn counts(&self) -> [i64; 3] {
-        self.counts
     }
     /// Most iterations in one tick so far (PC-13), and iterations in all.
     pub fn batch(&self) -> (u32, u64) {

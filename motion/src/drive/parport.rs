@@ -1,5 +1,5 @@
 //! The parallel-port axis driver, and a simulated device behind it: counters, converters, plotter.
-//! Runs: cyclic. Memory for the record and the trace is taken at the start. From: PC-30..PC-36, tables 1 and 2.
+//! Runs: cyclic. Memory for the record is taken at the start. From: PC-30..PC-36, tables 1 and 2.
 
 use super::StepPort;
 use crate::pulse::dda::Pulse;
@@ -52,11 +52,6 @@ impl<P: StepPort> StepDriver<P> {
     pub fn record(&self) -> &[u8] {
         &self.record
     }
-
-    /// True if the record had no room for all bytes.
-    pub fn record_is_full(&self) -> bool {
-        self.record_max > 0 && self.record.len() == self.record_max
-    }
 }
 
 /// Simulated interface: per axis an 8-bit up/down counter, a converter and a plotter axis (PC-34, PC-35).
@@ -71,8 +66,6 @@ pub struct SimulatedPort {
     setup_errors: u64,
     resets: u32,
     max: [u8; 3],
-    trace: Vec<[u8; 2]>,
-    trace_max: usize,
 }
 
 /// Volts of one bit (PC-36).
@@ -81,10 +74,6 @@ pub const VOLTS_PER_BIT: f64 = 0.02;
 pub const VOLTS_PER_CM: f64 = 0.1;
 
 impl SimulatedPort {
-    /// A device that keeps up to `trace_max` pen positions.
-    pub fn new(trace_max: usize) -> Self {
-        Self { trace: Vec::with_capacity(trace_max), trace_max, ..Self::default() }
-    }
     /// Counter of each axis.
     pub fn counters(&self) -> [u8; 3] {
         self.counters
@@ -122,10 +111,6 @@ impl SimulatedPort {
         let [x, y, _] = self.volts().map(|v| v / VOLTS_PER_CM);
         [x, y]
     }
-    /// Counters of X and Y after each write that moved one.
-    pub fn trace(&self) -> &[[u8; 2]] {
-        &self.trace
-    }
 
     fn count(&mut self, i: usize, up: bool) {
         let (next, wrap) = if up { self.counters[i].overflowing_add(1) } else { self.counters[i].overflowing_sub(1) };
@@ -146,9 +131,6 @@ impl StepPort for SimulatedPort {
                 self.setup_errors += u64::from(changed & UP[i] != 0);
                 self.count(i, data & UP[i] != 0);
             }
-        }
-        if rising & CLOCKS != 0 && self.trace.len() < self.trace_max {
-            self.trace.push([self.counters[0], self.counters[1]]);
         }
         self.data = data;
         self.writes += 1;
@@ -175,7 +157,7 @@ mod tests {
     /// PC-32: two writes a pulse; a change of direction is written ahead of the edge.
     #[test]
     fn pc_32_writes() {
-        let mut driver = StepDriver::new(SimulatedPort::new(10), 10);
+        let mut driver = StepDriver::new(SimulatedPort::default(), 10);
         let x = |up| Pulse { step: [true, false, false], up: [up, false, false] };
         driver.pulse(&x(true));
         driver.pulse(&x(true));
@@ -187,7 +169,7 @@ mod tests {
     /// PC-33, PC-34, PC-35
     #[test]
     fn pc_35_counters_wrap_and_plot() {
-        let mut driver = StepDriver::new(SimulatedPort::new(0), 0);
+        let mut driver = StepDriver::new(SimulatedPort::default(), 0);
         let up = Pulse { step: [false, true, false], up: [false, true, false] };
         (0..150).for_each(|_| driver.pulse(&up));
         let [_, y] = driver.port.pen_cm();

@@ -93,8 +93,12 @@ pub struct PathExecutor {
 impl PathExecutor {
     /// At rest at `position`.
     pub fn new(position: Point) -> Self {
+        Self::standing(position, VecDeque::with_capacity(QUEUE))
+    }
+
+    fn standing(position: Point, queue: VecDeque<Planned>) -> Self {
         Self {
-            queue: VecDeque::with_capacity(QUEUE),
+            queue,
             queued_mm: 0.0,
             accel_min: f64::INFINITY,
             current: None,
@@ -114,18 +118,7 @@ impl PathExecutor {
     /// Forgets everything and stands at `position`.
     pub fn reset(&mut self, position: Point) {
         self.queue.clear();
-        self.queued_mm = 0.0;
-        self.accel_min = f64::INFINITY;
-        self.current = None;
-        self.dwell_s = 0.0;
-        self.pace = Pace::Plan;
-        self.feed_override = true;
-        self.primed = false;
-        self.position = position;
-        self.history = [None; HISTORY];
-        self.feed_mm = 0.0;
-        self.blocks = 0;
-        self.last = Mark::default();
+        *self = Self::standing(position, std::mem::take(&mut self.queue)); // the queue keeps its memory
     }
 
     /// Drops what is left of a program; the place and the figures stay.
@@ -181,11 +174,6 @@ impl PathExecutor {
     /// Rest of the current element in mm.
     pub fn distance_to_go(&self) -> f64 {
         self.current.as_ref().map_or(0.0, |c| (c.segment.path.length - c.s).max(0.0))
-    }
-
-    /// True while a dwell runs.
-    pub fn is_dwelling(&self) -> bool {
-        self.dwell_s > 0.0
     }
 
     /// Distance of a point from the path at and behind the current position, in mm; infinite without a path.
@@ -279,10 +267,10 @@ impl PathExecutor {
             return Next::Nothing;
         }
         self.primed = true;
-        let Some(step) = self.queue.front().copied() else { return Next::Nothing };
-        if demand.hold && self.speed_in(&step) == 0.0 {
+        if self.queue.front().is_none_or(|step| demand.hold && self.speed_in(step) == 0.0) {
             return Next::Nothing;
         }
+        let Some(step) = self.queue.pop_front() else { return Next::Nothing };
         self.count(step.mark);
         match step.action {
             Action::Move(segment) => {
@@ -291,12 +279,8 @@ impl PathExecutor {
             }
             Action::Dwell(seconds) => self.dwell_s = seconds,
             Action::FeedOverride(on) => self.feed_override = on,
-            _ => {
-                self.queue.pop_front();
-                return Next::Other(step);
-            }
+            _ => return Next::Other(step),
         }
-        self.queue.pop_front();
         Next::Started
     }
 

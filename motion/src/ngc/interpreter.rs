@@ -56,11 +56,6 @@ impl Interpreter {
         &self.modal
     }
 
-    /// Number of blocks read so far.
-    pub fn blocks(&self) -> u32 {
-        self.block
-    }
-
     /// Reads one piece of the text: its commands go to the queue, its diagnostics are returned.
     fn advance(&mut self) -> Vec<Diag> {
         let Some(piece) = self.lines.next(&self.text) else {

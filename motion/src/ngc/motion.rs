@@ -23,16 +23,14 @@ pub fn command(motion: Motion, request: &Request, modal: &Modal, warnings: &mut 
 }
 
 fn target(request: &Request, modal: &Modal) -> Position {
-    let p = modal.position;
-    let from = [p.x, p.y, p.z, p.a, p.b, p.c];
+    let from: [f64; 6] = modal.position.into();
     let mut to = from;
     for (i, letter) in AXES.into_iter().enumerate() {
         if let Some(value) = request.value(letter) {
             to[i] = if modal.distance == Distance::Absolute { value } else { from[i] + value };
         }
     }
-    let [x, y, z, a, b, c] = to;
-    Position { x, y, z, a, b, c }
+    to.into()
 }
 
 fn no_feed(motion: Motion, request: &Request) -> Diag {

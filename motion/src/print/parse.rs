@@ -91,8 +91,7 @@ fn read_numbers<const N: usize>(args: &[&str]) -> Option<[f64; N]> {
 }
 
 fn read_position(args: &[&str]) -> Option<Position> {
-    let [x, y, z, a, b, c] = read_numbers(args)?;
-    Some(Position { x, y, z, a, b, c })
+    read_numbers::<6>(args).map(Position::from)
 }
 
 fn read_arc(args: &[&str]) -> Option<Arc> {

@@ -36,7 +36,7 @@ pub(super) fn install() -> Result<(), LoadError> {
 }
 
 fn install_one(slot: usize, signal: c_int) -> Result<(), LoadError> {
-    let error = || LoadError::System("installing a signal handler", std::io::Error::last_os_error().raw_os_error().unwrap_or(0));
+    let error = || LoadError::last("installing a signal handler");
     // SAFETY: plain calls on structures of our own. The handler is written to be called at any instruction.
     unsafe {
         let mut before = Box::new(zeroed::<libc::sigaction>());

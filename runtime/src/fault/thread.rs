@@ -78,20 +78,16 @@ impl Drop for Kit {
     }
 }
 
-fn error(what: &'static str) -> LoadError {
-    LoadError::System(what, std::io::Error::last_os_error().raw_os_error().unwrap_or(0))
-}
-
 fn signal_stack() -> Result<*mut libc::c_void, LoadError> {
     // SAFETY: a fresh mapping, given to the kernel as this thread's signal stack.
     unsafe {
         let flags = libc::MAP_PRIVATE | libc::MAP_ANONYMOUS | libc::MAP_POPULATE;
         let base = libc::mmap(null_mut(), SIGNAL_STACK, libc::PROT_READ | libc::PROT_WRITE, flags, -1, 0);
         if base == libc::MAP_FAILED {
-            return Err(error("mapping a signal stack"));
+            return Err(LoadError::last("mapping a signal stack"));
         }
         let stack = libc::stack_t { ss_sp: base, ss_flags: 0, ss_size: SIGNAL_STACK };
-        if libc::sigaltstack(&stack, null_mut()) == 0 { Ok(base) } else { Err(error("setting a signal stack")) }
+        if libc::sigaltstack(&stack, null_mut()) == 0 { Ok(base) } else { Err(LoadError::last("setting a signal stack")) }
     }
 }
 
@@ -119,13 +115,13 @@ fn watchdog() -> Result<libc::timer_t, LoadError> {
         event.sigev_notify_thread_id = libc::gettid();
         let mut timer: libc::timer_t = null_mut();
         if libc::timer_create(libc::CLOCK_THREAD_CPUTIME_ID, &mut event, &mut timer) != 0 {
-            return Err(error("making the watchdog's timer"));
+            return Err(LoadError::last("making the watchdog's timer"));
         }
         let tick = libc::timespec { tv_sec: 0, tv_nsec: WATCHDOG_TICK.0 };
         let period = libc::itimerspec { it_interval: tick, it_value: tick };
         if libc::timer_settime(timer, 0, &period, null_mut()) != 0 {
             libc::timer_delete(timer);
-            return Err(error("starting the watchdog's timer"));
+            return Err(LoadError::last("starting the watchdog's timer"));
         }
         Ok(timer)
     }

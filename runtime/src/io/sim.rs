@@ -106,7 +106,7 @@ impl Stimulus {
         };
         let head = Head::new(image, n, head, &mut errors);
         let mut stimulus = Self::default();
-        if let Some(head) = head {
+        if let Some(mut head) = head {
             lines.for_each(|(n, line)| head.row(image, n, line, &mut stimulus, &mut errors));
         }
         errors.truncate(20);
@@ -124,15 +124,12 @@ fn skipped(line: &str) -> bool {
 struct Head {
     by_time: bool,
     columns: Vec<Option<Variable>>,
-    last: std::cell::Cell<i64>,
+    last: i64,
 }
 
 impl Head {
     fn new(image: &Image, line: u32, text: &str, errors: &mut Vec<StimulusError>) -> Option<Self> {
-        let Some(cells) = cells(text) else {
-            errors.push(StimulusError::new(line, 0, "a quote is not closed", "close it, or double it inside of a quoted cell"));
-            return None;
-        };
+        let cells = cells(line, text).map_err(|e| errors.push(e)).ok()?;
         let by_time = cells[0].eq_ignore_ascii_case("time");
         if !by_time && !cells[0].eq_ignore_ascii_case("scan") {
             errors.push(StimulusError::new(
@@ -151,17 +148,13 @@ impl Head {
             }
         };
         let columns = cells.iter().enumerate().skip(1).map(&mut column).collect();
-        Some(Self { by_time, columns, last: i64::MIN.into() })
+        Some(Self { by_time, columns, last: i64::MIN })
     }
 
-    fn row(&self, image: &Image, line: u32, text: &str, to: &mut Stimulus, errors: &mut Vec<StimulusError>) {
-        let Some(cells) = cells(text) else {
-            return errors.push(StimulusError::new(
-                line,
-                0,
-                "a quote is not closed",
-                "close it, or double it inside of a quoted cell",
-            ));
+    fn row(&mut self, image: &Image, line: u32, text: &str, to: &mut Stimulus, errors: &mut Vec<StimulusError>) {
+        let cells = match cells(line, text) {
+            Ok(cells) => cells,
+            Err(e) => return errors.push(e),
         };
         if cells.len() > self.columns.len() + 1 {
             let message = format!("{} cells, but the first line names {}", cells.len(), self.columns.len() + 1);
@@ -180,7 +173,7 @@ impl Head {
         }
     }
 
-    fn when(&self, line: u32, cell: &str) -> Result<When, StimulusError> {
+    fn when(&mut self, line: u32, cell: &str) -> Result<When, StimulusError> {
         let when = if self.by_time { time(cell).map(When::Time) } else { cell.parse().ok().filter(|&n| n > 0).map(When::Scan) };
         let help = if self.by_time { "write a time such as 1s500ms or 1.5 (seconds)" } else { "scans count from 1" };
         let when = when.ok_or_else(|| StimulusError::new(line, 1, format!("`{cell}` is not a {}", self.unit()), help))?;
@@ -188,7 +181,7 @@ impl Head {
             When::Time(t) => t.0,
             When::Scan(n) => i64::try_from(n).unwrap_or(i64::MAX),
         };
-        if key < self.last.replace(key) {
+        if key < std::mem::replace(&mut self.last, key) {
             return Err(StimulusError::new(line, 1, format!("{} {cell} comes after a later one", self.unit()), "sort the rows"));
         }
         Ok(when)
@@ -205,10 +198,10 @@ fn time(cell: &str) -> Option<Nanos> {
     seconds().or_else(|| parse_time(Elementary::Time, cell).map(Nanos)).filter(|t| t.0 >= 0)
 }
 
-/// The cells of a line, trimmed; double quotes keep commas, and stand doubled for themselves. `None` if a quote is not closed.
-fn cells(line: &str) -> Option<Vec<String>> {
+/// The cells of a line, trimmed; double quotes keep commas, and stand doubled for themselves.
+fn cells(line: u32, text: &str) -> Result<Vec<String>, StimulusError> {
     let (mut cells, mut cell, mut quoted) = (Vec::new(), String::new(), false);
-    let mut chars = line.chars().peekable();
+    let mut chars = text.chars().peekable();
     while let Some(c) = chars.next() {
         match c {
             '"' if quoted && chars.peek() == Some(&'"') => cell.extend(chars.next()),
@@ -218,7 +211,10 @@ fn cells(line: &str) -> Option<Vec<String>> {
         }
     }
     cells.push(cell.trim().to_owned());
-    (!quoted).then_some(cells)
+    if quoted {
+        return Err(StimulusError::new(line, 0, "a quote is not closed", "close it, or double it inside of a quoted cell"));
+    }
+    Ok(cells)
 }
 
 /// A driver without a world: the stimulus is the inputs, and the outputs go nowhere.

@@ -26,13 +26,13 @@ impl Pages {
         let flags = libc::MAP_PRIVATE | libc::MAP_ANONYMOUS | libc::MAP_NORESERVE;
         // SAFETY: a fresh anonymous mapping touches nothing that exists.
         let base = unsafe { libc::mmap(std::ptr::null_mut(), size, protection, flags, -1, 0) };
-        if base == libc::MAP_FAILED { Err(error("mapping memory")) } else { Ok(Self { base: base.cast(), size }) }
+        if base == libc::MAP_FAILED { Err(LoadError::last("mapping memory")) } else { Ok(Self { base: base.cast(), size }) }
     }
 
     fn protect(&mut self, size: usize, protection: i32) -> Result<(), LoadError> {
         // SAFETY: the range lies inside the mapping, which nobody else uses yet.
         let status = unsafe { libc::mprotect(self.base.cast(), size, protection) };
-        if status == 0 { Ok(()) } else { Err(error("protecting memory")) }
+        if status == 0 { Ok(()) } else { Err(LoadError::last("protecting memory")) }
     }
 }
 
@@ -41,10 +41,6 @@ impl Drop for Pages {
         // SAFETY: the mapping is ours, and nothing borrows it any more.
         unsafe { libc::munmap(self.base.cast(), self.size) };
     }
-}
-
-fn error(what: &'static str) -> LoadError {
-    LoadError::System(what, std::io::Error::last_os_error().raw_os_error().unwrap_or(0))
 }
 
 /// Machine code, readable and executable, never writable while it can run.

@@ -30,6 +30,10 @@ pub enum LoadError {
 }
 
 impl LoadError {
+    /// The last call of the system failed.
+    pub(crate) fn last(what: &'static str) -> Self {
+        LoadError::System(what, std::io::Error::last_os_error().raw_os_error().unwrap_or(0))
+    }
     /// The diagnostic code.
     pub const fn code(&self) -> Code {
         match self {

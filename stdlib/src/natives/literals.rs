@@ -2,6 +2,7 @@
 //! Runs: cyclic.
 
 use crate::calendar::{SECOND_NS, date_ns, tod_ns};
+use takt_image::literal_time::UNITS;
 
 /// A place in a text.
 pub(super) struct Cursor<'a> {
@@ -78,17 +79,6 @@ pub(super) fn integer(cursor: &mut Cursor) -> Option<i128> {
     }
 }
 
-/// Units of a duration, largest first, and their nanoseconds.
-const UNITS: [(&[u8], i128); 7] = [
-    (b"d", 86_400_000_000_000),
-    (b"h", 3_600_000_000_000),
-    (b"m", 60_000_000_000),
-    (b"s", 1_000_000_000),
-    (b"ms", 1_000_000),
-    (b"us", 1_000),
-    (b"ns", 1),
-];
-
 /// `1d2h`, `-5ms`, `1h_30m`, `14.7h`, `0`, in nanoseconds, ties to even; saturates. Units descend, the last may have a fraction.
 pub(super) fn duration(cursor: &mut Cursor) -> Option<i64> {
     let negative = cursor.eat_any(b"+-") == Some(b'-');
@@ -101,8 +91,8 @@ pub(super) fn duration(cursor: &mut Cursor) -> Option<i64> {
         if word.is_empty() && whole == 0 && total == 0 && fraction.is_none() && cursor.at_end() {
             return Some(0);
         }
-        let at = units.iter().position(|(name, _)| name.eq_ignore_ascii_case(word))?;
-        let size = units[at].1;
+        let at = units.iter().position(|(name, _)| name.as_bytes().eq_ignore_ascii_case(word))?;
+        let size = i128::from(units[at].1);
         units = &units[at + 1..];
         total = total.saturating_add(whole.saturating_mul(size));
         if let Some(fraction) = fraction {

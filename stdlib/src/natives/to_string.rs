@@ -8,6 +8,7 @@ use super::text::{store_units, target, width};
 use crate::calendar::{SECOND_NS, date_of, time_of_day};
 use crate::lookup::ConversionType;
 use std::fmt::{self, Write};
+use takt_image::literal_time::UNITS;
 use takt_image::{Elementary as E, NativeCall, Trap};
 
 /// Slots: value, target.
@@ -95,17 +96,6 @@ fn write_plain(line: &mut Line, first: &str, rest: &str, exponent: i32) -> fmt::
     write!(line, "{first}{whole:0<exponent$}.{}", if fraction.is_empty() { "0" } else { fraction })
 }
 
-/// Units of a duration and their nanoseconds.
-const UNITS: [(&str, u64); 7] = [
-    ("d", 86_400_000_000_000),
-    ("h", 3_600_000_000_000),
-    ("m", 60_000_000_000),
-    ("s", 1_000_000_000),
-    ("ms", 1_000_000),
-    ("us", 1_000),
-    ("ns", 1),
-];
-
 /// Parts that are not zero.
 fn write_duration(line: &mut Line, prefix: &str, ns: i64) -> fmt::Result {
     line.write_str(prefix)?;
@@ -116,7 +106,7 @@ fn write_duration(line: &mut Line, prefix: &str, ns: i64) -> fmt::Result {
         line.write_str("-")?;
     }
     let mut rest = ns.unsigned_abs();
-    for (unit, size) in UNITS {
+    for (unit, size) in UNITS.map(|(unit, ns)| (unit, ns as u64)) {
         if rest >= size {
             write!(line, "{}{unit}", rest / size)?;
             rest %= size;
