@@ -143,13 +143,18 @@ impl Feeder {
     /// Does what can be done without waiting; false if there was nothing.
     pub fn pump(&mut self, files: &Files, reader: &Reader) -> bool {
         let mut busy = false;
-        while !self.events.is_full()
+        while self.may_obey()
             && let Some(command) = self.commands.pop()
         {
             busy = true;
             self.command(&command, files, reader);
         }
         self.feed() || busy
+    }
+
+    /// A command waits, and there is room for its event.
+    fn may_obey(&self) -> bool {
+        !self.commands.is_empty() && !self.events.is_full()
     }
 
     fn command(&mut self, command: &Command, files: &Files, reader: &Reader) {
@@ -170,7 +175,7 @@ impl Feeder {
             }
             Err(note) => Event::LoadFailed { request, note: *note },
         };
-        // There is room: `pump` takes no command otherwise.
+        // There is room: see `may_obey`.
         let _ = self.events.push(event);
     }
 
@@ -211,11 +216,11 @@ impl Feeder {
         });
     }
 
-    /// Feeds until the ring is full or the program has ended.
+    /// Feeds until the ring is full, the program has ended, or there is a new command.
     fn feed(&mut self) -> bool {
-        let Some(running) = &mut self.running else { return false };
         let mut busy = false;
         loop {
+            let Some(running) = &mut self.running else { return busy };
             while let Some(step) = running.planner.pop() {
                 busy = true;
                 if let Err(back) = self.out.push(step) {
@@ -228,6 +233,9 @@ impl Feeder {
                 return busy;
             }
             running.advance(&self.config);
+            if self.may_obey() {
+                return true;
+            }
         }
     }
 }

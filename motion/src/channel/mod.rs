@@ -180,8 +180,8 @@ impl Channel {
         self.take_events();
         self.watch(axes);
         if !self.joined {
-            // Left-overs of an aborted run make room for the next.
-            while self.link.steps.pop().is_some() {}
+            // Left-overs of an aborted run make room for the next. What comes while they go waits for the next tick.
+            (0..self.link.steps.len()).map_while(|_| self.link.steps.pop()).for_each(drop);
             return;
         }
         self.executor.fill(&mut self.link.steps, self.run);
