@@ -212,3 +212,17 @@ fn global_blocks_see_themselves() {
         PROGRAM p VAR_EXTERNAL g : count; END_VAR VAR d : DINT; END_VAR g(a := 2); d := g.n; END_PROGRAM";
     check_program(text, 1, &[("p.d", "14")]);
 }
+
+/// A function that nothing but the connection of a program calls.
+#[test]
+fn connections_call_functions() {
+    let text = "TYPE S : STRUCT a, b : INT; END_STRUCT; END_TYPE
+        FUNCTION twice : INT VAR_INPUT a : INT; END_VAR twice := inner(a) * 2; END_FUNCTION
+        FUNCTION inner : INT VAR_INPUT a : INT; END_VAR inner := a + 1; END_FUNCTION
+        FUNCTION pair : S VAR_INPUT a : INT; END_VAR pair.a := a; pair.b := a + 5; END_FUNCTION
+        PROGRAM p VAR_INPUT i : INT; s : S; END_VAR VAR x, y : INT; END_VAR x := i; y := s.b; END_PROGRAM
+        CONFIGURATION c VAR_GLOBAL g : INT := 20; END_VAR
+        RESOURCE r ON PLC TASK t(INTERVAL := T#10ms, PRIORITY := 1);
+        PROGRAM q WITH t : p (i := twice(g), s := pair(g)); END_RESOURCE END_CONFIGURATION";
+    check_program(text, 1, &[("q.x", "42"), ("q.y", "25")]);
+}

@@ -31,8 +31,8 @@ pub(super) struct Builder<'a> {
     pub global_enums: Vec<TypeId>,
     /// Located variables and the size of the process image.
     pub image: ImagePlan,
-    /// Who calls whom, and where.
-    pub calls: Vec<(PouId, PouId, Span)>,
+    /// Who calls whom, and where. `None`: the connections of a program in the configuration.
+    pub calls: Vec<(Option<PouId>, PouId, Span)>,
     leaves: usize,
     depth: u32,
 }

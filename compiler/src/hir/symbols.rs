@@ -125,7 +125,10 @@ impl<'a> Builder<'a> {
             end: end_keyword(decl),
             reachable: false,
         });
-        if self.unit_name(&decl.name, Unit::Pou(id)) && kind == model::PouKind::Function {
+        let is_new = self.unit_name(&decl.name, Unit::Pou(id));
+        if decl.external && !library && takt_stdlib::native_signature(&decl.name.key()).is_some() {
+            self.error(Code::DuplicateName, decl.name.span, "a native of the library has this name");
+        } else if is_new && kind == model::PouKind::Function {
             self.warn_replaced(&decl.name);
         }
     }

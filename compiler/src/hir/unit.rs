@@ -57,6 +57,9 @@ impl Builder<'_> {
                 Diag::new(Code::SectionNotAllowed, result.span, label).message("a function can't return a function block"),
             );
         }
+        if decl.external && matches!(self.ty(used.ty), Type::Array { .. } | Type::Struct(_)) {
+            self.unsupported(result.span, "an external function with such a result", "return it through a VAR_IN_OUT");
+        }
         let var = self.push_var(id, &decl.name, used.ty, Role::Result, Storage::Local, used.default);
         self.hir.pous[id].result = Some(var);
         self.declare_local(&decl.name, Local::Var(var));
@@ -143,6 +146,7 @@ impl Builder<'_> {
             () if ty == self.error || used.ty == self.error => return,
             () if ty != used.ty => format!("{}, the global is {}", self.show(used.ty), self.show(ty)),
             () if constant && !section.constant => "the global is CONSTANT, this is not".to_owned(),
+            () if section.constant && !constant => "this is CONSTANT, the global is not".to_owned(),
             () if d.init.is_some() => "has an initial value".to_owned(),
             () => return,
         };

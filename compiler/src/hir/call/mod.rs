@@ -104,8 +104,6 @@ impl Builder<'_> {
 
     /// Remembers who calls whom.
     pub(super) fn note_call(&mut self, to: PouId, span: Span) {
-        if let Some(from) = self.scope.pou {
-            self.calls.push((from, to, span));
-        }
+        self.calls.push((self.scope.pou, to, span));
     }
 }

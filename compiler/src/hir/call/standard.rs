@@ -57,11 +57,19 @@ impl Builder<'_> {
         let mut slots: Vec<Option<&'t ast::Expr>> = Vec::new();
         for (position, arg) in args.iter().enumerate() {
             let (slot, value) = match arg {
-                ast::Arg::Positional(e) => (Some(position), Some(e)),
-                ast::Arg::Input { name: formal, value } => (self.formal(found, formal), value.as_ref()),
-                ast::Arg::Output { name: formal, .. } => (self.formal(found, formal).and(None), None),
+                ast::Arg::Positional(e) => (position, e),
+                ast::Arg::Input { name: formal, value: Some(e) } => (self.formal(found, formal)?, e),
+                ast::Arg::Input { name: formal, value: None } => {
+                    self.formal(found, formal)?;
+                    self.error(Code::WrongArgumentCount, formal.span, "no value");
+                    return None;
+                }
+                ast::Arg::Output { name: formal, .. } => {
+                    self.formal(found, formal)?;
+                    self.report(Diag::new(Code::UnknownParameter, formal.span, "an input").help("write `name := value`"));
+                    return None;
+                }
             };
-            let (slot, value) = (slot?, value?);
             slots.resize(slots.len().max(slot + 1), None);
             if slots[slot].replace(value).is_some() {
                 self.error(Code::WrongArgumentCount, value.span, "given twice");

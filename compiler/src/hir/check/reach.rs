@@ -7,11 +7,14 @@ use takt_base::index::Index;
 /// Sets [`crate::hir::model::Pou::reachable`].
 pub(super) fn mark(builder: &mut Builder) {
     let mut called: Vec<Vec<PouId>> = vec![Vec::new(); builder.hir.pous.len()];
-    for (from, to, _) in &builder.calls {
-        called[from.index()].push(*to);
-    }
     let programs = builder.hir.tasks.iter().flat_map(|t| &t.programs);
     let mut todo: Vec<PouId> = programs.map(|p| p.pou).collect();
+    for (from, to, _) in &builder.calls {
+        match from {
+            Some(from) => called[from.index()].push(*to),
+            None => todo.push(*to),
+        }
+    }
     while let Some(id) = todo.pop() {
         let pou = &mut builder.hir.pous[id];
         if !std::mem::replace(&mut pou.reachable, true) {

@@ -9,7 +9,9 @@ use takt_base::{Code, Diag, Span};
 pub(super) fn check(builder: &mut Builder) {
     let mut called: Vec<Vec<(PouId, Span)>> = vec![Vec::new(); builder.hir.pous.len()];
     for &(from, to, span) in &builder.calls {
-        called[from.index()].push((to, span));
+        if let Some(from) = from {
+            called[from.index()].push((to, span));
+        }
     }
     let components = components(&called);
     for id in builder.hir.pous.indices() {

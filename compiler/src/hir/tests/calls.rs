@@ -146,6 +146,19 @@ fn external_units() {
         ],
     );
     assert_eq!(check("{external} FUNCTION f : INT f := 1; END_FUNCTION"), "P0012 1:29");
+    assert_eq!(check("TYPE S : STRUCT a : INT; END_STRUCT; END_TYPE {external} FUNCTION f : S END_FUNCTION"), "P0012 1:71");
+    assert_eq!(check("{external} FUNCTION f : ARRAY[0..1] OF INT END_FUNCTION"), "P0012 1:25");
+    // The name of a native of the library stands for that native alone.
+    assert_eq!(check("{external} FUNCTION Sin_Lreal : DINT VAR_INPUT a : DINT; END_VAR END_FUNCTION"), "P1001 1:21");
     let built = build("{external} FUNCTION_BLOCK E END_FUNCTION_BLOCK PROGRAM p VAR e : E; END_VAR e(); END_PROGRAM");
     assert!(built.pou("E").external && built.pou("E").reachable);
+}
+
+/// Parameters of a standard function are inputs and need a value.
+#[test]
+fn standard_arguments_without_a_value() {
+    assert_eq!(check_in("", "x : LREAL;", "x := SIN(IN => x);"), "P1006 4:10");
+    assert_eq!(check_in("", "x : LREAL;", "x := SIN(IN := );"), "P2013 4:10");
+    assert_eq!(check_in("", "x : LREAL;", "IF SIN(IN := ) > 1.0 THEN x := 1.0; END_IF;"), "P2013 4:8");
+    assert_eq!(check_in("", "x : LREAL; i : INT;", "x := INT_TO_LREAL(IN => i);"), "P1006 4:19");
 }

@@ -102,6 +102,7 @@ fn globals_and_externals() {
     assert_eq!(case("PROGRAM p g := 1; g := 2; END_PROGRAM"), "P1008 2:11");
     assert_eq!(case("PROGRAM p VAR_EXTERNAL g : DINT; END_VAR END_PROGRAM"), "P1009 2:24");
     assert_eq!(case("PROGRAM p VAR_EXTERNAL k : INT; END_VAR END_PROGRAM"), "P1009 2:24");
+    assert_eq!(case("PROGRAM p VAR_EXTERNAL CONSTANT g : INT; END_VAR END_PROGRAM"), "P1009 2:33");
     assert_eq!(case("PROGRAM p VAR_EXTERNAL g : INT := 4; END_VAR END_PROGRAM"), "P1009 2:24");
     assert_eq!(case("PROGRAM p VAR_EXTERNAL h : INT; END_VAR h := 1; END_PROGRAM"), "P1009 2:24");
     assert_eq!(case("PROGRAM p VAR_EXTERNAL CONSTANT k : INT; END_VAR k := 1; END_PROGRAM"), "P3001 2:50");

@@ -64,13 +64,9 @@ impl Parser<'_> {
                 self.bump();
                 self.unsupported_here("assignment attempt (?=)");
                 self.bump();
-                Arg::Positional(self.expr())
+                Arg::Positional(self.measured(height))
             }
-            _ => {
-                let tree = self.binary(1);
-                *height = tree.height.max(*height);
-                Arg::Positional(tree.expr)
-            }
+            _ => Arg::Positional(self.measured(height)),
         }
     }
 
@@ -79,9 +75,14 @@ impl Parser<'_> {
         if self.at(Tok::Comma) || self.at(Tok::RParen) {
             return None;
         }
+        Some(self.measured(height))
+    }
+
+    /// An expression; `height` grows to that of its tree.
+    fn measured(&mut self, height: &mut u32) -> Expr {
         let tree = self.binary(1);
         *height = tree.height.max(*height);
-        Some(tree.expr)
+        tree.expr
     }
 
     /// The closing bracket of the one at `opener`.

@@ -48,6 +48,19 @@ fn deep_nesting_is_one_message() {
     }
 }
 
+/// The height of a tree counts through the arguments of calls, also of those that are not supported.
+#[test]
+fn heights_add_up_through_arguments() {
+    let nested = |assign: &str, levels: usize| {
+        let (open, close) = (format!("f({assign} "), format!("{})", " + y".repeat(99)));
+        codes(&format!("PROGRAM p x := {}1{}; END_PROGRAM", open.repeat(levels), close.repeat(levels)))
+    };
+    for assign in ["", "a :=", "a ?="] {
+        let too_deep = |levels| nested(assign, levels).iter().any(|c| c.starts_with("P0011"));
+        assert_eq!((too_deep(2), too_deep(3)), (false, true), "{assign}");
+    }
+}
+
 #[test]
 fn long_lists_have_no_limit() {
     let n = 20_000;
