@@ -40,7 +40,7 @@ fn an_abort_is_obeyed_in_the_middle_of_a_program() {
             let x = f64::from(line % 2);
             let command =
                 if line == 1 { Canon::SetFeedRate(6000.0) } else { Canon::StraightFeed(Position { x, ..Position::default() }) };
-            (line < 100_000).then(|| Ok(Step { block: line, line, n: None, command }))
+            (line < 100_000).then_some(Ok(Step { block: line, line, n: None, command }))
         })
     }));
     let reader: Reader = Box::new(move |_| Box::new(program.lock().unwrap().take().unwrap()));
