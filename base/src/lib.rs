@@ -3,6 +3,7 @@
 pub mod diag;
 pub mod index;
 pub mod nearest;
+pub mod profile;
 pub mod ring;
 pub mod source;
 pub mod time;
@@ -10,5 +11,6 @@ pub mod units;
 
 pub use diag::{Code, Diag, Severity, Sink};
 pub use nearest::nearest;
+pub use profile::Profile;
 pub use source::{LineCol, SourceId, Sources, Span};
 pub use time::Nanos;

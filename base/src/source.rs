@@ -1,6 +1,8 @@
 //! Source files and places in them.
 //! Text is UTF-8; a file that is not is read as Latin-1 (IEC 61131-3 reference §1.1). Spans count bytes of the decoded text.
 
+use crate::Profile;
+
 crate::index_type! {
     /// A file in [`Sources`].
     SourceId
@@ -54,6 +56,8 @@ pub struct Source {
     pub text: String,
     /// True for the standard library and generated declarations: no warnings, not in fault traces.
     pub library: bool,
+    /// Dialect that it is written in.
+    pub profile: Profile,
     line_starts: Vec<u32>,
 }
 
@@ -91,7 +95,12 @@ impl Sources {
 
     fn push(&mut self, name: String, text: String, library: bool) -> SourceId {
         let line_starts = std::iter::once(0).chain(line_ends(&text)).collect();
-        self.files.push(Source { name, text, library, line_starts })
+        self.files.push(Source { name, text, library, profile: Profile::Std, line_starts })
+    }
+
+    /// Says which dialect a file is written in; [`Profile::Std`] until then.
+    pub fn set_profile(&mut self, id: SourceId, profile: Profile) {
+        self.files[id].profile = profile;
     }
 
     /// The file.

@@ -7,7 +7,7 @@ use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 use std::sync::Arc;
-use takt_base::{Code, Nanos};
+use takt_base::{Code, Nanos, Profile};
 use takt_compiler::driver::{self, Compilation, File};
 use takt_compiler::mir::{Interpreter, model::Module};
 use takt_image::{Engine, Image, encode};
@@ -43,8 +43,10 @@ pub enum EngineKind {
 pub fn compile(project: &Project) -> Result<Compilation, Problem> {
     let machine = project::machine(&project.keys)?;
     let interval = project.keys.task.interval.as_deref();
-    let declarations = File { name: "machine.st".into(), bytes: Machine::declarations(&machine).into_bytes(), library: true };
-    let sources = project.sources.iter().map(|(name, bytes)| File { name: name.clone(), bytes: bytes.clone(), library: false });
+    let text = Machine::declarations(&machine).into_bytes();
+    let declarations = File { name: "machine.st".into(), bytes: text, library: true, profile: Profile::Std };
+    let sources =
+        project.sources.iter().map(|s| File { name: s.name.clone(), bytes: s.bytes.clone(), library: false, profile: s.profile });
     Ok(driver::compile(driver::Project {
         name: project.name.clone(),
         files: std::iter::once(declarations).chain(sources).collect(),
@@ -56,13 +58,13 @@ pub fn compile(project: &Project) -> Result<Compilation, Problem> {
 
 impl Session {
     /// Compiles a project, or opens an image file. Messages go to stderr; `None` if there are errors.
-    pub fn open(paths: &[PathBuf]) -> Result<Option<Self>, Problem> {
+    pub fn open(paths: &[PathBuf], profile: Option<Profile>) -> Result<Option<Self>, Problem> {
         if let [file] = paths
             && is_image(file)
         {
             return Self::from_image(file).map(Some);
         }
-        let project = project::load(paths)?;
+        let project = project::load(paths, profile)?;
         let machine = project::machine(&project.keys)?;
         let compilation = compile(&project)?;
         diagnostics::print(&compilation.diags, &compilation.sources);

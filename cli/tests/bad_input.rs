@@ -57,7 +57,7 @@ fn project_files_with_mistakes() {
     for (toml, code, words) in [
         ("[run]\nduratoin = \"1s\"", "C0002", "duration"),
         ("[run]\nduration = 5", "C0001", "takt.toml:2:12"),
-        ("[project]\nprofile = \"codesys\"", "C0001", "takt.toml:2:11"),
+        ("[project]\nprofile = \"siemens\"", "C0001", "takt.toml:2:11"),
         ("[run", "C0001", "takt.toml"),
         ("[run]\nduration = \"soon\"", "C0001", "not a duration"),
         ("[run]\nstop_when = \"main.x\"", "C0007", "main"),

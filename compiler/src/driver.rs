@@ -4,7 +4,7 @@ use crate::codegen::{self, Code};
 use crate::mir::{self, Lowered, model::Module};
 use crate::syntax::{self, ast};
 use crate::{hir, hir::model::Hir};
-use takt_base::{Code as DiagCode, Diag, Nanos, Sink, SourceId, Sources, Span};
+use takt_base::{Code as DiagCode, Diag, Nanos, Profile, Sink, SourceId, Sources, Span};
 use takt_image::Image;
 use takt_image::image::Target;
 
@@ -32,6 +32,8 @@ pub struct File {
     pub bytes: Vec<u8>,
     /// Declarations that a library brings along: no warnings about it.
     pub library: bool,
+    /// Dialect.
+    pub profile: Profile,
 }
 
 /// What came out.
@@ -92,10 +94,11 @@ fn sources(files: &[File]) -> Sources {
         sources.add_library(*name, *text);
     }
     for file in files {
-        match file.library {
+        let id = match file.library {
             true => sources.add_library_bytes(&file.name, file.bytes.clone()),
             false => sources.add_bytes(&file.name, file.bytes.clone()),
         };
+        sources.set_profile(id, file.profile);
     }
     sources
 }

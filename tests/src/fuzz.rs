@@ -11,7 +11,7 @@ use takt_motion::ngc::{Options, check};
 
 /// Source text: the compiler ends, gives an image or an error, and each message has a place that can be shown.
 pub fn st(bytes: &[u8]) {
-    let file = File { name: "fuzz.st".into(), bytes: bytes.into(), library: false };
+    let file = File { name: "fuzz.st".into(), bytes: bytes.into(), library: false, profile: takt_base::Profile::Std };
     let c = compile(Project { name: "fuzz".into(), files: vec![file], attachments: vec![], interval: None, native: true });
     let refused = c.diags.iter().any(|d| d.severity == Severity::Error);
     assert_eq!(c.image.is_some(), !refused, "an image or an error");

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 use takt_base::diag::render;
-use takt_base::{Nanos, Severity};
+use takt_base::{Nanos, Profile, Severity};
 use takt_compiler::driver::{Compilation, File, Project, compile};
 use takt_compiler::mir::Interpreter;
 use takt_image::value::{read, write_text};
@@ -27,9 +27,14 @@ struct Side {
     memory: Vec<u8>,
 }
 
-/// Compiles one file.
+/// Compiles one file of profile `std`.
 pub fn compile_st(text: &str) -> Compilation {
-    let file = File { name: "test.st".into(), bytes: text.into(), library: false };
+    compile_in(Profile::Std, text)
+}
+
+/// Compiles one file of a profile.
+pub fn compile_in(profile: Profile, text: &str) -> Compilation {
+    let file = File { name: "test.st".into(), bytes: text.into(), library: false, profile };
     compile(Project { name: "test".into(), files: vec![file], attachments: vec![], interval: None, native: true })
 }
 
@@ -39,9 +44,19 @@ impl Plc {
         Self::load(text).unwrap_or_else(|messages| panic!("{messages}\n{text}"))
     }
 
+    /// The same for a file of another profile.
+    pub fn new_in(profile: Profile, text: &str) -> Self {
+        Self::load_in(profile, text).unwrap_or_else(|messages| panic!("{messages}\n{text}"))
+    }
+
     /// Compiles and loads; the messages if the text has errors.
     pub fn load(text: &str) -> Result<Self, String> {
-        let c = compile_st(text);
+        Self::load_in(Profile::Std, text)
+    }
+
+    /// The same for a file of another profile.
+    pub fn load_in(profile: Profile, text: &str) -> Result<Self, String> {
+        let c = compile_in(profile, text);
         let errors = c.diags.iter().filter(|d| d.severity == Severity::Error);
         let messages: Vec<_> = errors.map(|d| render(d, &c.sources)).collect();
         let (Some(image), Some(module)) = (c.image, c.module) else { return Err(messages.join("\n")) };

@@ -50,7 +50,7 @@ fn any_bytes_as_st() {
     for i in 0..setting("TAKT_INPUTS", 2000) {
         let seed = &seeds[rng.below(seeds.len())];
         let bytes = if i % 10 == 0 { random(&mut rng) } else { mutated(&mut rng, seed.as_bytes()) };
-        let file = File { name: "x.st".into(), bytes, library: false };
+        let file = File { name: "x.st".into(), bytes, library: false, profile: takt_base::Profile::Std };
         let c = compile(Project { name: "x".into(), files: vec![file], attachments: vec![], interval: None, native: false });
         let wrong = c.diags.iter().any(|d| d.severity == Severity::Error);
         assert_eq!(wrong, c.image.is_none(), "an image or a reason");

@@ -34,13 +34,13 @@ pub fn run(args: Args) -> Status {
 }
 
 fn execute(args: &Args) -> Result<Status, Problem> {
-    let Some(session) = Session::open(&args.project)? else { return Ok(Status::Wrong) };
+    let Some(session) = Session::open(&args.project, args.profile.get())? else { return Ok(Status::Wrong) };
     let compile_ms = compile_ms(args)?;
     takt_runtime::realtime::on_program_thread(|| measure(args, &session, compile_ms)).map_err(|e| Problem::thread(&e))?
 }
 
 fn compile_ms(args: &Args) -> Result<f64, Problem> {
-    let project = project::load(&args.project)?;
+    let project = project::load(&args.project, args.profile.get())?;
     let mut best = f64::INFINITY;
     for _ in 0..COMPILATIONS {
         let start = Instant::now();

@@ -24,7 +24,7 @@ pub fn run(args: Args) -> Status {
 }
 
 fn execute(args: &Args) -> Result<Status, Problem> {
-    let Some(session) = Session::open(&args.project)? else { return Ok(Status::Wrong) };
+    let Some(session) = Session::open(&args.project, args.profile.get())? else { return Ok(Status::Wrong) };
     let bytes = takt_image::encode::encode(&session.image);
     project::write(&args.output, &bytes)?;
     eprintln!("wrote {}: {} bytes, {} of them code", args.output.display(), bytes.len(), session.image.code.len());

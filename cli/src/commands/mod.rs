@@ -16,9 +16,16 @@ use crate::project::Problem;
 /// The language profile, on every command that compiles.
 #[derive(clap::Args)]
 pub struct Profile {
-    /// Language profile; this version has the standard's alone
-    #[arg(long = "profile", default_value = "std", value_parser = ["std"])]
-    _profile: String,
+    /// Language profile of every source file [default: as takt.toml says, else std; codesys2 for .exp]
+    #[arg(long = "profile", value_name = "NAME", value_parser = ["std", "codesys", "codesys2", "openplc"])]
+    name: Option<String>,
+}
+
+impl Profile {
+    /// The profile that was named.
+    pub fn get(&self) -> Option<takt_base::Profile> {
+        self.name.as_deref().and_then(takt_base::Profile::from_name)
+    }
 }
 
 /// The status of a command; a problem is shown first.

@@ -42,7 +42,7 @@ pub fn run(args: Args) -> Status {
 }
 
 fn execute(args: &Args) -> Result<Status, Problem> {
-    let Some(session) = Session::open(&args.project)? else { return Ok(Status::Wrong) };
+    let Some(session) = Session::open(&args.project, args.profile.get())? else { return Ok(Status::Wrong) };
     let stop = Arc::new(AtomicBool::new(false));
     let seen = Arc::clone(&stop);
     let handler = ctrlc::set_handler(move || seen.store(true, Ordering::Relaxed));

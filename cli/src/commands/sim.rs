@@ -60,7 +60,7 @@ pub fn run(args: Args) -> Status {
 }
 
 fn execute(args: &Args) -> Result<Status, Problem> {
-    let Some(mut session) = Session::open(&args.project)? else { return Ok(Status::Wrong) };
+    let Some(mut session) = Session::open(&args.project, args.profile.get())? else { return Ok(Status::Wrong) };
     if let Some(interval) = args.interval {
         let tasks = session.image.tasks.iter_mut();
         tasks.filter_map(|t| t.interval.as_mut()).for_each(|i| *i = interval);

@@ -1,12 +1,16 @@
 //! The keys of `takt.toml`. Unknown keys are errors; `takt explain takt.toml` prints [`super::REFERENCE`].
 
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use takt_base::Profile;
 
 /// The whole file.
 #[derive(Clone, Debug, Default, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct ProjectFile {
     pub project: ProjectKeys,
+    /// Dialects of single files or folders, by path.
+    pub profiles: BTreeMap<String, LanguageProfile>,
     pub task: TaskKeys,
     pub run: RunKeys,
     pub motion: MotionKeys,
@@ -20,13 +24,30 @@ pub struct ProjectKeys {
     pub profile: LanguageProfile,
 }
 
-/// Dialect of the sources.
-#[derive(Clone, Copy, Debug, Default, Deserialize, Serialize)]
+/// Dialect of the sources: [`takt_base::Profile`] as a key.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum LanguageProfile {
     /// IEC 61131-3 as it stands.
     #[default]
     Std,
+    /// CODESYS 3 and TwinCAT 3.
+    Codesys,
+    /// CODESYS 2.
+    Codesys2,
+    /// MATIEC, Beremiz, OpenPLC.
+    OpenPlc,
+}
+
+impl From<LanguageProfile> for Profile {
+    fn from(key: LanguageProfile) -> Profile {
+        match key {
+            LanguageProfile::Std => Profile::Std,
+            LanguageProfile::Codesys => Profile::Codesys,
+            LanguageProfile::Codesys2 => Profile::Codesys2,
+            LanguageProfile::OpenPlc => Profile::OpenPlc,
+        }
+    }
 }
 
 #[derive(Clone, Debug, Default, Deserialize, Serialize)]

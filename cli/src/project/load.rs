@@ -2,7 +2,7 @@
 
 use super::file::ProjectFile;
 use std::path::{Path, PathBuf};
-use takt_base::{Code, Diag, Sources, Span};
+use takt_base::{Code, Diag, Profile, Sources, Span};
 
 /// A project as read: keys, sources and where they came from.
 #[derive(Clone, Debug, Default)]
@@ -15,8 +15,19 @@ pub struct Project {
     pub keys: ProjectFile,
     /// Text of `takt.toml`, to travel in an image.
     pub toml: String,
-    /// Source files: name as shown in messages, and contents.
-    pub sources: Vec<(String, Vec<u8>)>,
+    /// Source files in order.
+    pub sources: Vec<SourceFile>,
+}
+
+/// A source file as read.
+#[derive(Clone, Debug)]
+pub struct SourceFile {
+    /// As shown in messages.
+    pub name: String,
+    /// Contents.
+    pub bytes: Vec<u8>,
+    /// Dialect: of the command line, else of `[profiles]`, else as the extension says, else of the project.
+    pub profile: Profile,
 }
 
 /// Why a project can't be read.
@@ -46,15 +57,19 @@ impl Problem {
     }
 }
 
-const SOURCE_EXTENSIONS: &[&str] = &["st"];
+const SOURCE_EXTENSIONS: &[&str] = &["st", "exp"];
 
-/// Reads the project that `paths` name: one folder, or one or more source files.
-pub fn load(paths: &[PathBuf]) -> Result<Project, Problem> {
-    match paths {
-        [dir] if dir.is_dir() => folder(dir),
-        [toml] if toml.file_name().is_some_and(|n| n == "takt.toml") => folder(toml.parent().unwrap_or(Path::new("."))),
-        files => plain_files(files),
+/// Reads the project that `paths` name: one folder, or one or more source files. A profile given here is that of every file.
+pub fn load(paths: &[PathBuf], profile: Option<Profile>) -> Result<Project, Problem> {
+    let mut project = match paths {
+        [dir] if dir.is_dir() => folder(dir)?,
+        [toml] if toml.file_name().is_some_and(|n| n == "takt.toml") => folder(toml.parent().unwrap_or(Path::new(".")))?,
+        files => plain_files(files)?,
+    };
+    if let Some(profile) = profile {
+        project.sources.iter_mut().for_each(|s| s.profile = profile);
     }
+    Ok(project)
 }
 
 /// Parses the text of a project file; `name` is shown in messages.
@@ -82,23 +97,29 @@ fn folder(dir: &Path) -> Result<Project, Problem> {
         None => sources_in(dir)?,
     };
     if names.is_empty() {
-        return Err(Problem::File(Code::BadProjectFile, format!("{} has no takt.toml and no *.st file", dir.display())));
+        return Err(Problem::File(
+            Code::BadProjectFile,
+            format!("{} has no takt.toml and no source file (*.st, *.exp)", dir.display()),
+        ));
     }
     let name = keys.project.name.clone().unwrap_or_else(|| folder_name(dir));
-    Ok(Project { root: dir.to_owned(), name, keys, toml, sources: read_all(&names)? })
+    let sources = read_all(&names, keys.project.profile.into())?;
+    let mut project = Project { root: dir.to_owned(), name, keys, toml, sources };
+    set_profiles(&mut project, &names)?;
+    Ok(project)
 }
 
 fn plain_files(files: &[PathBuf]) -> Result<Project, Problem> {
     for file in files {
         let extension = file.extension().and_then(|e| e.to_str()).unwrap_or("");
         if file.exists() && !SOURCE_EXTENSIONS.iter().any(|e| e.eq_ignore_ascii_case(extension)) {
-            let text = format!("{}: this version reads ST sources (*.st) and project folders", file.display());
+            let text = format!("{}: this version reads *.st, *.exp and project folders", file.display());
             return Err(Problem::File(Code::BadProjectFile, text));
         }
     }
     let root = files.first().and_then(|f| f.parent()).unwrap_or(Path::new("")).to_owned();
     let name = files.first().and_then(|f| f.file_stem()).map_or("project".into(), |n| n.to_string_lossy().into_owned());
-    Ok(Project { root, name, keys: ProjectFile::default(), toml: String::new(), sources: read_all(files)? })
+    Ok(Project { root, name, keys: ProjectFile::default(), toml: String::new(), sources: read_all(files, Profile::Std)? })
 }
 
 fn folder_name(dir: &Path) -> String {
@@ -108,13 +129,41 @@ fn folder_name(dir: &Path) -> String {
 
 fn sources_in(dir: &Path) -> Result<Vec<PathBuf>, Problem> {
     let entries = dir.read_dir().map_err(|e| unreadable(dir, &e))?;
-    let mut names: Vec<_> = entries.flatten().map(|e| e.path()).filter(|p| p.extension().is_some_and(|e| e == "st")).collect();
+    let mut names: Vec<_> =
+        entries.flatten().map(|e| e.path()).filter(|p| SOURCE_EXTENSIONS.iter().any(|e| has_extension(p, e))).collect();
     names.sort();
     Ok(names)
 }
 
-fn read_all(names: &[PathBuf]) -> Result<Vec<(String, Vec<u8>)>, Problem> {
-    names.iter().map(|n| Ok((n.display().to_string(), read(n)?))).collect()
+/// Reads source files; a CODESYS 2 export is told by its extension unless the project has a profile of its own.
+fn read_all(names: &[PathBuf], profile: Profile) -> Result<Vec<SourceFile>, Problem> {
+    let profile_of = |name: &Path| match profile {
+        Profile::Std if has_extension(name, "exp") => Profile::Codesys2,
+        profile => profile,
+    };
+    names.iter().map(|n| Ok(SourceFile { name: n.display().to_string(), bytes: read(n)?, profile: profile_of(n) })).collect()
+}
+
+fn has_extension(path: &Path, wanted: &str) -> bool {
+    path.extension().is_some_and(|e| e.eq_ignore_ascii_case(wanted))
+}
+
+/// `[profiles]`: each key is a source file or a folder; the longest one that fits a file decides.
+fn set_profiles(project: &mut Project, names: &[PathBuf]) -> Result<(), Problem> {
+    for (key, profile) in &project.keys.profiles {
+        let place = project.root.join(key);
+        let mut fits = false;
+        // Keys come in order, so a file inside of a folder comes behind the folder.
+        for (_, source) in names.iter().zip(&mut project.sources).filter(|(n, _)| n.starts_with(&place)) {
+            source.profile = (*profile).into();
+            fits = true;
+        }
+        if !fits {
+            let text = format!("takt.toml: [profiles] names \"{key}\", and no source file stands there");
+            return Err(Problem::File(Code::BadProjectFile, text));
+        }
+    }
+    Ok(())
 }
 
 /// Reads a file whole.

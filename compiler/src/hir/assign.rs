@@ -4,7 +4,7 @@ use super::builder::Builder;
 use super::model::*;
 use super::place::{Access, Target, ends_in_part};
 use crate::syntax::ast;
-use takt_base::{Code, Diag, Span};
+use takt_base::{Code, Diag, Severity, Span};
 use takt_image::TypeId;
 
 impl Builder<'_> {
@@ -25,6 +25,10 @@ impl Builder<'_> {
         let diag = match target.access {
             Access::Write => return self.check_control(&target.place, span),
             Access::Constant(at) => Diag::new(Code::AssignToConstant, span, "a constant").also(at, "declared CONSTANT"),
+            Access::OwnInput(at) if self.profile(span).writes_inputs() => {
+                self.warn_input_written(at, span);
+                return true;
+            }
             Access::OwnInput(at) => Diag::new(Code::AssignToInput, span, "an input of this unit")
                 .also(at, "declared")
                 .help("copy the input to a variable and change that"),
@@ -35,6 +39,17 @@ impl Builder<'_> {
         };
         self.report(diag);
         false
+    }
+
+    /// A vendor form (§0): the caller keeps its value, the next call overwrites it.
+    fn warn_input_written(&mut self, at: Span, span: Span) {
+        self.report(
+            Diag::new(Code::AssignToInput, span, "an input of this unit")
+                .severity(Severity::Warning)
+                .message("an input is assigned inside its own unit")
+                .also(at, "declared")
+                .help("copy the input to a variable and change that"),
+        );
     }
 
     /// Control variables belong to their loop; also remembers that a function's result was written.

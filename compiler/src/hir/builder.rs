@@ -5,7 +5,7 @@ use super::model::*;
 use super::scope::Scope;
 use super::symbols::Symbols;
 use std::collections::{HashMap, HashSet};
-use takt_base::{Code, Diag, Severity, Sink, Sources, Span};
+use takt_base::{Code, Diag, Profile, Severity, Sink, Sources, Span};
 use takt_image::types::{Record, Type};
 use takt_image::{Elementary, TypeId};
 
@@ -73,6 +73,10 @@ impl<'a> Builder<'a> {
     /// True for the standard library and generated declarations.
     pub fn in_library(&self, span: Span) -> bool {
         self.sources.get(span.source).library
+    }
+    /// The dialect of the file that this stands in.
+    pub fn profile(&self, span: Span) -> Profile {
+        self.sources.get(span.source).profile
     }
     /// A feature that this version does not have.
     pub fn unsupported(&mut self, span: Span, what: &str, help: &str) {

@@ -6,7 +6,7 @@ use super::keyword::Kw;
 use super::report::Report;
 use logos::{Lexer, Logos};
 use takt_base::diag::{Code, Diag};
-use takt_base::{SourceId, Span};
+use takt_base::{Profile, SourceId, Span};
 
 /// Shape of a token.
 #[derive(Logos, Clone, Copy, PartialEq, Eq, Debug)]
@@ -144,12 +144,15 @@ pub(crate) struct Tokens {
     pub(crate) cut: bool,
 }
 
+/// In a CODESYS 2 export: comments nest in this file (language reference §17).
+const NESTED_MARK: &str = "@NESTEDCOMMENTS := 'Yes'";
 /// Some editors write it at the start of a file; it means nothing there.
 const BYTE_ORDER_MARK: char = '\u{feff}';
 
 /// Splits the text; reports what is not closed and what is no token.
-pub(crate) fn lex(text: &str, source: SourceId, report: &mut Report) -> Tokens {
-    let mut scan = Scan { logos: Tok::lexer(text), source, report, external: Vec::new(), cut: false };
+pub(crate) fn lex(text: &str, source: SourceId, profile: Profile, report: &mut Report) -> Tokens {
+    let nested = profile.nests_comments() || text.contains(NESTED_MARK);
+    let mut scan = Scan { logos: Tok::lexer(text), source, report, nested, external: Vec::new(), cut: false };
     if text.starts_with(BYTE_ORDER_MARK) {
         scan.logos.bump(BYTE_ORDER_MARK.len_utf8());
     }
@@ -175,6 +178,8 @@ pub(crate) fn lex(text: &str, source: SourceId, report: &mut Report) -> Tokens {
 struct Scan<'t, 'r, 's> {
     logos: Lexer<'t, Tok>,
     source: SourceId,
+    /// Comments nest.
+    nested: bool,
     report: &'r mut Report<'s>,
     external: Vec<usize>,
     cut: bool,
@@ -294,7 +299,7 @@ impl Scan<'_, '_, '_> {
                     depth -= 1;
                     i += 2;
                 }
-                (Some(&b), Some(b'*')) if b == open => {
+                (Some(&b), Some(b'*')) if b == open && self.nested => {
                     depth += 1;
                     inner = Some(opener.end as usize + i);
                     i += 2;

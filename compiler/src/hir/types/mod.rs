@@ -15,7 +15,6 @@ use takt_image::types::Type;
 use takt_image::{Elementary, TypeId};
 
 /// Characters of a STRING without a length.
-pub(super) const STRING_DEFAULT: u32 = 254;
 /// Most characters of a STRING.
 pub(super) const STRING_MAX: u32 = 32767;
 
@@ -45,7 +44,7 @@ impl Builder<'_> {
     fn type_kind(&mut self, t: &ast::TypeRef) -> TypeUse {
         match &t.kind {
             ast::TypeRefKind::Named(name) => self.named_type(name),
-            ast::TypeRefKind::String { wide, capacity } => self.string_type(*wide, capacity.as_deref()),
+            ast::TypeRefKind::String { wide, capacity } => self.string_type(*wide, capacity.as_deref(), t.span),
             ast::TypeRefKind::Subrange { base, low, high } => self.subrange(None, base, low, high, t.span),
             ast::TypeRefKind::Array { dims, element } => self.array_type(dims, element, t.span),
             ast::TypeRefKind::Enum(decl) => self.anonymous_enum(decl),
@@ -133,9 +132,9 @@ impl Builder<'_> {
         TypeUse { ty: body.ty, default }
     }
 
-    fn string_type(&mut self, wide: bool, capacity: Option<&ast::Expr>) -> TypeUse {
+    fn string_type(&mut self, wide: bool, capacity: Option<&ast::Expr>, span: Span) -> TypeUse {
         let capacity = match capacity {
-            None => Some(STRING_DEFAULT),
+            None => Some(self.profile(span).string_capacity()),
             Some(e) => self.const_int(e).and_then(|n| self.capacity(n, e.span)),
         };
         let Some(capacity) = capacity else { return self.bad_type() };

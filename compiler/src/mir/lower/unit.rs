@@ -160,7 +160,7 @@ impl<'p, 'h> Unit<'p, 'h> {
     fn study(&mut self, pou: &'h Pou) {
         let (lent, quiet) = (&mut self.lent, &mut self.quiet);
         let own = |p: &Place| match p.base {
-            Base::Var(v) => pou.vars[v].storage == Storage::Local && pou.vars[v].role != Role::InOut,
+            Base::Var(v) => pou.vars[v].storage == Storage::Local && !matches!(pou.vars[v].role, Role::InOut | Role::Input),
             _ => false,
         };
         walk::statements(&pou.body, &mut |event| match event {

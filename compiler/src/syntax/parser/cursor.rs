@@ -6,7 +6,7 @@ use crate::syntax::lexer::{Tok, Token, Tokens};
 use crate::syntax::report::Report;
 use std::collections::HashSet;
 use takt_base::diag::{Code, Diag};
-use takt_base::{SourceId, Span};
+use takt_base::{Profile, SourceId, Span};
 
 /// Deepest nesting of statements, types, initial values and expressions, counted together.
 pub(super) const MAX_DEPTH: u32 = 200;
@@ -34,12 +34,21 @@ pub(super) struct Parser<'a> {
     /// Names with misplaced underscores; reported once.
     misspelt: HashSet<String>,
     library: bool,
+    /// Dialect of the file.
+    pub(super) profile: Profile,
     /// Positions from the first to the second have no section keyword between; see `var`.
     pub(super) section_ahead: (usize, usize),
 }
 
 impl<'a> Parser<'a> {
-    pub(super) fn new(text: &'a str, source: SourceId, tokens: Tokens, library: bool, report: Report<'a>) -> Self {
+    pub(super) fn new(
+        text: &'a str,
+        source: SourceId,
+        tokens: Tokens,
+        library: bool,
+        profile: Profile,
+        report: Report<'a>,
+    ) -> Self {
         Self {
             text,
             source,
@@ -55,6 +64,7 @@ impl<'a> Parser<'a> {
             named: HashSet::new(),
             misspelt: HashSet::new(),
             library,
+            profile,
             section_ahead: (0, 0),
         }
     }
@@ -262,7 +272,7 @@ impl<'a> Parser<'a> {
         !self.named.is_empty() && self.named.contains(&(kw as u8))
     }
     fn check_underscores(&mut self, text: &str, span: Span) {
-        if !self.library && self.misspelt.insert(text.to_ascii_uppercase()) {
+        if !self.library && !self.profile.takes_any_underscores() && self.misspelt.insert(text.to_ascii_uppercase()) {
             let mut good = text.trim_end_matches('_').to_owned();
             while good.contains("__") {
                 good = good.replace("__", "_");

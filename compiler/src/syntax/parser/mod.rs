@@ -35,6 +35,6 @@ pub fn parse(sources: &Sources, id: SourceId, sink: &mut Sink) -> File {
         report.push(diag.help("split it, or check that it is a source file"));
         return File::default();
     }
-    let tokens = lex(&source.text, id, &mut report);
-    Parser::new(&source.text, id, tokens, source.library, report).file()
+    let tokens = lex(&source.text, id, source.profile, &mut report);
+    Parser::new(&source.text, id, tokens, source.library, source.profile, report).file()
 }

@@ -1,0 +1,62 @@
+//! Where the dialects differ (language reference, section 0): the same text, another profile.
+
+use takt_base::{Code, Profile, Severity};
+use takt_tests::plc::{Plc, compile_in};
+
+fn codes(profile: Profile, text: &str) -> Vec<(Code, Severity)> {
+    compile_in(profile, text).diags.iter().map(|d| (d.code, d.severity)).collect()
+}
+
+#[test]
+fn s0_inputs_may_be_written_with_a_warning() {
+    let text = "FUNCTION f : INT VAR_INPUT a : INT; END_VAR a := a + 1; f := a; END_FUNCTION
+        PROGRAM main VAR x : INT := 4; y : INT; END_VAR y := f(x); END_PROGRAM";
+    for profile in Profile::ALL {
+        let severity = if profile.is_codesys() { Severity::Warning } else { Severity::Error };
+        assert_eq!(codes(profile, text), [(Code::AssignToInput, severity)], "{profile:?}");
+    }
+    let mut plc = Plc::new_in(Profile::Codesys, text);
+    plc.scan(0).unwrap();
+    assert_eq!((plc.get("main.x"), plc.get("main.y")), ("4".into(), "5".into()));
+}
+
+#[test]
+fn s0_writing_an_aggregate_input_leaves_the_callers_value_alone() {
+    let text = "TYPE A : ARRAY[0..2] OF INT; END_TYPE
+        FUNCTION f : INT VAR_INPUT a : A; s : STRING; END_VAR a[1] := 7; s := 'new'; f := a[1]; END_FUNCTION
+        PROGRAM main VAR x : A := [1, 2, 3]; t : STRING := 'old'; y : INT; END_VAR y := f(x, t); END_PROGRAM";
+    let mut plc = Plc::new_in(Profile::Codesys2, text);
+    plc.scan(0).unwrap();
+    let got = ["main.x[1]", "main.t", "main.y"].map(|p| plc.get(p));
+    assert_eq!(got, ["2", "'old'", "7"]);
+}
+
+#[test]
+fn s0_default_string_length() {
+    let text = "PROGRAM main VAR s : STRING; n : INT; END_VAR
+        WHILE LEN(s) = n DO n := n + 1; s := CONCAT(s, 'x'); END_WHILE n := LEN(s); END_PROGRAM";
+    for (profile, length) in Profile::ALL.into_iter().zip(["254", "80", "80", "126"]) {
+        let mut plc = Plc::new_in(profile, text);
+        plc.scan(0).unwrap();
+        assert_eq!(plc.get("main.n"), length, "{profile:?}");
+    }
+}
+
+#[test]
+fn s12_nested_comments_end_where_the_profile_says() {
+    let nested = "PROGRAM main VAR x : INT; END_VAR x := 1; (* a (* b *) x := 2; (* c *) END_PROGRAM";
+    assert!(codes(Profile::Codesys, nested).iter().any(|c| c.0 == Code::UnterminatedComment));
+    let mut plc = Plc::new_in(Profile::Codesys2, nested);
+    plc.scan(0).unwrap();
+    assert_eq!(plc.get("main.x"), "2");
+    let marked = format!("(* @NESTEDCOMMENTS := 'Yes' *) {nested}");
+    assert!(codes(Profile::Codesys2, &marked).iter().any(|c| c.0 == Code::UnterminatedComment));
+}
+
+#[test]
+fn s1_2_underscores_are_free_with_the_vendors() {
+    let text = "PROGRAM main VAR a__b, c_ : INT; END_VAR a__b := c_; END_PROGRAM";
+    for profile in Profile::ALL {
+        assert_eq!(codes(profile, text).is_empty(), profile.is_vendor(), "{profile:?}");
+    }
+}
