@@ -34,6 +34,10 @@ impl Profile {
         Profile::ALL.into_iter().find(|p| p.name() == name)
     }
 
+    /// What to do about a form that only CODESYS has: the help text of [`crate::Code::VendorForm`].
+    pub const CODESYS_HELP: &'static str =
+        "CODESYS has this form: give the file that profile with `--profile codesys`, or `profile = \"codesys\"` in takt.toml";
+
     /// CODESYS of any version: pointers, bit access to integers, `S=`, free mixing of bit strings and integers, and so on.
     pub const fn is_codesys(self) -> bool {
         matches!(self, Profile::Codesys | Profile::Codesys2)

@@ -60,3 +60,30 @@ fn s1_2_underscores_are_free_with_the_vendors() {
         assert_eq!(codes(profile, text).is_empty(), profile.is_vendor(), "{profile:?}");
     }
 }
+
+#[test]
+fn s5_1_chains_and_set_and_reset() {
+    let text = "FUNCTION next : INT VAR_IN_OUT n : INT; END_VAR n := n + 1; next := n; END_FUNCTION
+        PROGRAM main VAR n, a, b : INT; l : LREAL; start, stop, run, lamp : BOOL; END_VAR
+        a := b := next(n); l := a := b; run S= start; run R= stop; lamp S= run S= stop; END_PROGRAM";
+    let codes = codes(Profile::Std, text);
+    assert_eq!(codes.iter().map(|c| c.0).collect::<Vec<_>>(), [Code::VendorForm; 5], "{codes:?}");
+    let mut plc = Plc::new_in(Profile::Codesys, text);
+    plc.set("main.start", "TRUE");
+    plc.scan(0).unwrap();
+    assert_eq!(["n", "a", "b", "l", "run", "lamp"].map(|v| plc.get(&format!("main.{v}"))), ["1", "1", "1", "1.0", "TRUE", "FALSE"]);
+    plc.set("main.stop", "TRUE");
+    plc.scan(0).unwrap();
+    assert_eq!(["n", "a", "run", "lamp"].map(|v| plc.get(&format!("main.{v}"))), ["2", "2", "TRUE", "TRUE"]);
+}
+
+#[test]
+fn s1_3_words_of_edition_3_are_names_in_older_dialects() {
+    let text = "FUNCTION override : INT VAR_INPUT step, on, from : INT; END_VAR override := step + on + from; END_FUNCTION
+        PROGRAM main VAR class, ldt, r_edge, this, null : INT; END_VAR
+        class := override(step := 1, on := 2, from := 3); ldt := class; r_edge := ldt; this := null; END_PROGRAM";
+    for profile in Profile::ALL {
+        let codes = codes(profile, text);
+        assert_eq!(codes.is_empty(), !profile.reserves_new_words(), "{profile:?}: {codes:?}");
+    }
+}

@@ -53,6 +53,7 @@ codes! {
     P0011 NestedTooDeep "nesting is too deep";
     P0012 NotSupportedYet "this part of the language is not supported by this version";
     P0013 TooMuch "the parser stops here";
+    P0014 VendorForm "this form belongs to another language profile";
 
     // --- P1 names ---
     P1001 DuplicateName "this name is declared twice in one scope";

@@ -38,6 +38,7 @@ pub(super) fn addresses<'t>(body: &'t [ast::Stmt], on: &mut dyn FnMut(&'t ast::A
         let mut exprs: Vec<&ast::Expr> = Vec::new();
         match &stmt.kind {
             StmtKind::Assign { target, value } => exprs.extend([target, value]),
+            StmtKind::Chain { targets, value } => exprs.extend(targets.iter().map(|t| &t.0).chain([value])),
             StmtKind::Call(e) => exprs.push(e),
             StmtKind::If { branches, otherwise } => {
                 for (condition, body) in branches {

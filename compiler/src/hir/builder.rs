@@ -83,6 +83,13 @@ impl<'a> Builder<'a> {
         self.report(Diag::new(Code::NotSupportedYet, span, what).help(help));
     }
 
+    /// `what` at this place is understood in every profile, and an error in one that is not CODESYS.
+    pub fn codesys_form(&mut self, span: Span, what: &str) {
+        if !self.profile(span).is_codesys() && !self.in_library(span) {
+            self.report(Diag::new(Code::VendorForm, span, what).help(Profile::CODESYS_HELP));
+        }
+    }
+
     /// Type id of an elementary type.
     pub fn elem(&mut self, e: Elementary) -> TypeId {
         self.hir.types.intern(Type::Elementary(e))

@@ -7,6 +7,7 @@ mod block;
 mod body;
 mod builder;
 mod call;
+mod chain;
 mod check;
 mod config;
 mod constant;

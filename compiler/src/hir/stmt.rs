@@ -12,7 +12,14 @@ use takt_image::{Elementary, TypeId};
 impl Builder<'_> {
     /// A list of statements; what was wrong is left out.
     pub fn statements(&mut self, list: &[ast::Stmt]) -> Vec<Stmt> {
-        list.iter().filter_map(|s| self.deeper(s.span, |b| b.statement(s)).flatten()).collect()
+        let mut out = Vec::with_capacity(list.len());
+        for s in list {
+            match &s.kind {
+                ast::StmtKind::Chain { targets, value } => out.append(&mut self.chain(targets, value, s.span)),
+                _ => out.extend(self.deeper(s.span, |b| b.statement(s)).flatten()),
+            }
+        }
+        out
     }
 
     fn statement(&mut self, s: &ast::Stmt) -> Option<Stmt> {
@@ -38,7 +45,7 @@ impl Builder<'_> {
             ast::StmtKind::Exit => self.inside_loop(StmtKind::Exit, "EXIT", s.span)?,
             ast::StmtKind::Continue => self.inside_loop(StmtKind::Continue, "CONTINUE", s.span)?,
             ast::StmtKind::Return => StmtKind::Return,
-            ast::StmtKind::Empty | ast::StmtKind::Error => return None,
+            ast::StmtKind::Chain { .. } | ast::StmtKind::Empty | ast::StmtKind::Error => return None,
         };
         Some(Stmt { kind, span: s.span })
     }

@@ -295,6 +295,11 @@ pub enum StmtKind {
         target: Expr,
         value: Expr,
     },
+    /// `a S= b := value;` (vendor): the value goes to every target, the last one first.
+    Chain {
+        targets: Vec<(Expr, AssignOp)>,
+        value: Expr,
+    },
     /// A call as a statement: the expression is always [`ExprKind::Call`].
     Call(Expr),
     /// IF and its ELSIFs, then ELSE.
@@ -329,6 +334,17 @@ pub enum StmtKind {
     Empty,
     /// Something was wrong here and has been reported.
     Error,
+}
+
+/// How an assignment of a chain writes its target.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum AssignOp {
+    /// `:=`
+    Assign,
+    /// `S=`: becomes TRUE if the value is TRUE.
+    Set,
+    /// `R=`: becomes FALSE if the value is TRUE.
+    Reset,
 }
 
 /// Labels and statements of a CASE branch.

@@ -95,6 +95,40 @@ impl Kw {
     pub(crate) fn text(self) -> &'static str {
         WORDS.get((self as usize).wrapping_sub(1)).map_or("", |w| w.0)
     }
+    /// True for a word of edition 3 that older dialects do not know: a plain name there (§1.3).
+    pub(crate) fn is_new(self) -> bool {
+        use Kw::*;
+        let objects = matches!(
+            self,
+            Class
+                | EndClass
+                | Interface
+                | EndInterface
+                | Namespace
+                | EndNamespace
+                | Method
+                | EndMethod
+                | Using
+                | Extends
+                | Implements
+                | Abstract
+                | Final
+                | Override
+                | Internal
+                | Private
+                | Protected
+                | Public
+                | This
+                | Super
+        );
+        let types = matches!(self, Ldate | Ltod | LtimeOfDay | Ldt | LdateAndTime | Ltime | Char | Wchar);
+        objects || types || matches!(self, Null | Ref | RefTo | Overlap | Continue)
+    }
+    /// True for a reserved word that older dialects also take as a name, where it can mean nothing else.
+    pub(crate) fn is_name_in_older(self) -> bool {
+        use Kw::*;
+        matches!(self, Action | Step | InitialStep | Transition | On | From | REdge | FEdge | Task | With | ReadOnly | ReadWrite)
+    }
     /// True if it can't be a name in profile `std`.
     pub(crate) fn is_reserved(self) -> bool {
         self.class() != Class::Free

@@ -168,6 +168,7 @@ pub(crate) fn lex(text: &str, source: SourceId, profile: Profile, report: &mut R
         };
         let Some(kind) = kind else { continue };
         let kw = if kind == Tok::Word { Kw::of(scan.logos.slice()) } else { Kw::None };
+        let kw = if kw.is_new() && !profile.reserves_new_words() { Kw::None } else { kw };
         list.push(Token { kind, kw, start: start as u32, end: scan.logos.span().end as u32 });
     }
     let end = text.len() as u32;

@@ -186,6 +186,13 @@ impl<'a> Parser<'a> {
             self.report.push(diag);
         }
     }
+    /// `what` is understood in every profile, and an error in one that is not CODESYS.
+    pub(super) fn codesys_form(&mut self, what: &str) {
+        if !self.profile.is_codesys() && !self.library {
+            let diag = Diag::new(Code::VendorForm, self.here(), what.to_owned());
+            self.soft(diag.help(Profile::CODESYS_HELP));
+        }
+    }
     /// Reports a warning, whatever was reported before.
     pub(super) fn warn(&mut self, diag: Diag) {
         self.report.push(diag.severity(takt_base::diag::Severity::Warning));
@@ -254,7 +261,8 @@ impl<'a> Parser<'a> {
     }
     fn keyword_as_name(&mut self, what: &str) {
         let token = self.peek();
-        if self.named.insert(token.kw as u8) {
+        let is_free = token.kw.is_name_in_older() && !self.profile.reserves_new_words();
+        if self.named.insert(token.kw as u8) && !is_free {
             let text = self.text_of(token);
             let kind = if token.kw.is_type() { "a type of the standard" } else { "a keyword" };
             let diag = Diag::new(Code::KeywordAsName, self.span_of(token), format!("{text} is {kind}, not {what}"));

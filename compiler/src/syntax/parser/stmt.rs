@@ -2,7 +2,7 @@
 //! From: IEC 61131-3 §7.3.3 (language reference §5.1).
 
 use super::cursor::Parser;
-use crate::syntax::ast::{Expr, ExprKind, Stmt, StmtKind};
+use crate::syntax::ast::{AssignOp, Expr, ExprKind, Stmt, StmtKind};
 use crate::syntax::keyword::Kw;
 use crate::syntax::lexer::Tok;
 use takt_base::Span;
@@ -176,10 +176,8 @@ impl Parser<'_> {
             Tok::Eq | Tok::CEq => self.equals_as_assign(target),
             Tok::CUpdate => self.update(target),
             Tok::RefAssign => self.unsupported_assign("assignment attempt (?=)"),
-            Tok::Word if self.is_set_or_reset() => {
-                let what = format!("{}=", self.text_of(self.peek()).to_ascii_uppercase());
-                self.unsupported_assign(&what)
-            }
+            Tok::Word if self.set_or_reset().is_some() => self.chain(target),
+            Tok::Word if self.is_ref_assign() => self.unsupported_assign("REF="),
             _ => self.call_statement(target),
         }
     }
@@ -201,11 +199,48 @@ impl Parser<'_> {
         self.bump();
     }
 
-    /// `S=`, `R=`, `REF=` behind a variable.
-    fn is_set_or_reset(&self) -> bool {
-        let (word, next) = (self.peek(), self.nth(1));
-        let known = ["S", "R", "REF"].iter().any(|w| w.eq_ignore_ascii_case(self.text_of(word)));
-        known && next.kind == Tok::Eq && next.start == word.end
+    /// `REF=` behind a variable.
+    fn is_ref_assign(&self) -> bool {
+        self.is_word_and_equals("REF")
+    }
+
+    /// `S=` or `R=` behind a variable.
+    fn set_or_reset(&self) -> Option<AssignOp> {
+        match () {
+            () if self.is_word_and_equals("S") => Some(AssignOp::Set),
+            () if self.is_word_and_equals("R") => Some(AssignOp::Reset),
+            () => None,
+        }
+    }
+
+    fn is_word_and_equals(&self, word: &str) -> bool {
+        let (here, next) = (self.peek(), self.nth(1));
+        word.eq_ignore_ascii_case(self.text_of(here)) && next.kind == Tok::Eq && next.start == here.end
+    }
+
+    /// `a S= b := value`: from the first operator on.
+    fn chain(&mut self, first: Expr) -> StmtKind {
+        let mut targets = Vec::new();
+        let mut last = first;
+        while let Some(op) = self.chain_operator() {
+            if targets.is_empty() {
+                self.codesys_form(if op == AssignOp::Assign { "a chain of assignments" } else { "S= and R=" });
+            }
+            self.bump();
+            if op != AssignOp::Assign {
+                self.bump();
+            }
+            targets.push((last, op));
+            last = self.expr();
+        }
+        StmtKind::Chain { targets, value: last }
+    }
+
+    fn chain_operator(&self) -> Option<AssignOp> {
+        if self.lost {
+            return None;
+        }
+        if self.at(Tok::Assign) { Some(AssignOp::Assign) } else { self.set_or_reset() }
     }
 
     fn unsupported_assign(&mut self, what: &str) -> StmtKind {
@@ -217,11 +252,16 @@ impl Parser<'_> {
     fn assign(&mut self, target: Expr) -> StmtKind {
         self.bump();
         let value = self.expr();
-        if self.at(Tok::Assign) && !self.lost {
-            let diag = self.unsupported_diag("a chain of assignments");
-            self.error(diag.help("write one statement for each variable"));
+        if self.chain_operator().is_none() {
+            return StmtKind::Assign { target, value };
         }
-        StmtKind::Assign { target, value }
+        match self.chain(value) {
+            StmtKind::Chain { mut targets, value } => {
+                targets.insert(0, (target, AssignOp::Assign));
+                StmtKind::Chain { targets, value }
+            }
+            other => other,
+        }
     }
 
     fn equals_as_assign(&mut self, target: Expr) -> StmtKind {

@@ -141,6 +141,10 @@ fn block(stmts_: &[Stmt]) -> String {
 fn stmt(s: &Stmt) -> String {
     match &s.kind {
         StmtKind::Assign { target, value } => list([":=".into(), expr(target), expr(value)]),
+        StmtKind::Chain { targets, value } => {
+            let op = |o: &AssignOp| format!("{o:?}").to_ascii_lowercase();
+            list([all(targets, |(t, o)| format!("{} {}", op(o), expr(t))), expr(value)])
+        }
         StmtKind::Call(e) => expr(e),
         StmtKind::If { branches, otherwise } => {
             let branches = all(branches, |(c, b)| format!("{} {}", expr(c), block(b)));
