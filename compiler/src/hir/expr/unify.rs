@@ -3,6 +3,7 @@
 use crate::hir::builder::Builder;
 use crate::hir::constant;
 use crate::hir::convert::{Flex, Operand};
+use crate::hir::lattice;
 use crate::hir::model::*;
 use takt_image::types::Type;
 use takt_image::{Elementary, TypeId};
@@ -69,7 +70,8 @@ impl Builder<'_> {
             return self.unify_strings(a, b);
         }
         let (a, b) = (self.decay(a), self.decay(b));
-        let common = self.elementary(a.expr.ty)?.common(self.elementary(b.expr.ty)?)?;
+        let (x, y) = (self.elementary(a.expr.ty)?, self.elementary(b.expr.ty)?);
+        let common = lattice::common(self.profile(a.expr.span), x, y)?;
         let to = self.elem(common);
         Some((Operand::fixed(self.fit(a, to)), Operand::fixed(self.fit(b, to))))
     }
