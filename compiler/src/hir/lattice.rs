@@ -5,7 +5,7 @@ use super::builder::Builder;
 use super::constant;
 use super::model::*;
 use crate::syntax::ast::BinaryOp;
-use takt_base::Profile;
+use takt_base::{Profile, Span};
 use takt_image::{Elementary as E, TypeId};
 
 /// How well a type stands where another is wanted.
@@ -96,6 +96,26 @@ impl Builder<'_> {
             ExprKind::Binary(op, a, b) if grows(*op) => self.is_made_of(a, to) && self.is_made_of(b, to),
             _ => false,
         }
+    }
+
+    /// True for what counts: an integer, or a bit string where it is one (vendors).
+    pub(super) fn counts(&self, e: E, span: Span) -> bool {
+        e.is_int() || self.profile(span).mixes_bits_and_integers() && as_integer(e).is_some()
+    }
+
+    /// The operand of a sign as the vendors compute it: small integers and bit strings in a signed type that holds them.
+    pub(super) fn signed(&mut self, e: Expr) -> Expr {
+        let profile = self.profile(e.span);
+        let wide =
+            match self.elementary(e.ty) {
+                Some(t) if profile.is_vendor() && t.is_int() && t.bits() < 32 => E::Dint,
+                Some(t) if profile.mixes_bits_and_integers() && as_integer(t).is_some_and(E::is_unsigned_int) => {
+                    if t.bits() < 32 { E::Dint } else { E::Lint }
+                }
+                _ => return e,
+            };
+        let to = self.elem(wide);
+        self.wrap(Conversion::Integer, e, to)
     }
 
     /// A number or a bit string as BOOL (vendors): TRUE unless it is zero.

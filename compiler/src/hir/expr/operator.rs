@@ -196,6 +196,10 @@ impl Builder<'_> {
     }
 
     fn sign(&mut self, op: UnaryOp, o: Operand, span: Span) -> Operand {
+        let o = match o.flex {
+            Flex::Fixed if op == UnaryOp::Neg => Operand::fixed(self.signed(o.expr)),
+            _ => o,
+        };
         let e = self.elementary(o.expr.ty);
         if !e.is_some_and(|e| e.is_int() || e.is_real() || e.is_duration()) || o.flex == Flex::Text {
             return self.bad_operand(

@@ -39,6 +39,10 @@ impl Builder<'_> {
         let typed = self.decay(typed);
         let ty = typed.expr.ty;
         match (literal.flex, self.elementary(ty)) {
+            (Flex::Int { .. }, Some(e)) if e.is_int() && self.outgrows(&literal, ty) => {
+                let literal = Operand::fixed(self.settle(literal));
+                self.unify_fixed(typed, literal)
+            }
             (Flex::Int { .. }, Some(e)) if e.is_int() || e.is_real() || e.is_bit() => {
                 Some((typed, Operand::fixed(self.fit(literal, ty))))
             }
@@ -53,6 +57,11 @@ impl Builder<'_> {
             (Flex::Text, _) => self.unify_fixed(typed, Operand { flex: Flex::Fixed, ..literal }),
             _ => None,
         }
+    }
+
+    /// A number that the vendors compute in a wider type, because it does not fit the other operand's.
+    fn outgrows(&mut self, literal: &Operand, ty: TypeId) -> bool {
+        self.profile(literal.expr.span).is_vendor() && !self.fits(literal, ty)
     }
 
     /// The real type for a number of type `e` beside an untyped real: the wanted one if that will do.
