@@ -170,10 +170,18 @@ pub(crate) fn lex(text: &str, source: SourceId, profile: Profile, report: &mut R
         let kw = if kind == Tok::Word { Kw::of(scan.logos.slice()) } else { Kw::None };
         let kw = if kw.is_new() && !profile.reserves_new_words() { Kw::None } else { kw };
         list.push(Token { kind, kw, start: start as u32, end: scan.logos.span().end as u32 });
+        if profile == Profile::Codesys2 && kind == Tok::Word && is_graphic_body(scan.logos.slice()) {
+            scan.skip_graphic_body();
+        }
     }
     let end = text.len() as u32;
     list.push(Token { kind: Tok::Eof, kw: Kw::None, start: end, end });
     Tokens { list, external: scan.external, cut: scan.cut }
+}
+
+/// The word that opens a graphical body in a CODESYS 2 export (language reference §17).
+pub(crate) fn is_graphic_body(word: &str) -> bool {
+    ["_FBD_BODY", "_LD_BODY", "_SFC_BODY", "_CFC_BODY"].iter().any(|w| w.eq_ignore_ascii_case(word))
 }
 
 struct Scan<'t, 'r, 's> {
@@ -197,6 +205,20 @@ impl Scan<'_, '_, '_> {
         let rest = self.logos.remainder().as_bytes();
         let n = (0..rest.len()).find(|&i| !rest[i].is_ascii() || !wanted(rest[i], rest.get(i + 1).copied()));
         self.logos.bump(n.unwrap_or(rest.len()));
+    }
+
+    /// To the line that ends the unit: what lies between is not in any textual language.
+    fn skip_graphic_body(&mut self) {
+        let rest = self.logos.remainder();
+        let ends = |line: &str| ["END_PROGRAM", "END_FUNCTION", "END_ACTION"].iter().any(|e| line.trim_start().starts_with(e));
+        let mut skipped = 0;
+        for line in rest.split_inclusive('\n') {
+            if ends(line) {
+                break;
+            }
+            skipped += line.len();
+        }
+        self.logos.bump(skipped);
     }
 
     fn finish(&mut self, kind: Tok) -> Tok {
