@@ -187,3 +187,13 @@ fn s17_a_graphical_body_of_an_export_is_named_and_skipped() {
     assert_eq!(found, [(Code::NotSupportedYet, 5), (Code::Expected, 14)]);
     assert!(c.diags[0].message.contains("FBD"));
 }
+
+#[test]
+fn s1_4_conditional_compilation() {
+    let text = "{define fast}\nPROGRAM main VAR x : INT; END_VAR\n{IF defined(fast)} x := 1; {ELSE} x := := 2; {END_IF}\n{IF NOT defined(fast)} x := 3; {END_IF} END_PROGRAM";
+    assert!(codes(Profile::Std, text).iter().any(|c| c.0 == Code::NotSupportedYet));
+    let mut plc = Plc::new_in(Profile::Codesys, text);
+    plc.scan(0).unwrap();
+    assert_eq!(plc.get("main.x"), "1");
+    assert_eq!(codes(Profile::Codesys, "{IF defined(a)} PROGRAM p END_PROGRAM"), [(Code::Expected, Severity::Error)]);
+}
