@@ -71,7 +71,10 @@ fn s5_1_chains_and_set_and_reset() {
     let mut plc = Plc::new_in(Profile::Codesys, text);
     plc.set("main.start", "TRUE");
     plc.scan(0).unwrap();
-    assert_eq!(["n", "a", "b", "l", "run", "lamp"].map(|v| plc.get(&format!("main.{v}"))), ["1", "1", "1", "1.0", "TRUE", "FALSE"]);
+    assert_eq!(
+        ["n", "a", "b", "l", "run", "lamp"].map(|v| plc.get(&format!("main.{v}"))),
+        ["1", "1", "1", "1.0", "TRUE", "FALSE"]
+    );
     plc.set("main.stop", "TRUE");
     plc.scan(0).unwrap();
     assert_eq!(["n", "a", "run", "lamp"].map(|v| plc.get(&format!("main.{v}"))), ["2", "2", "TRUE", "TRUE"]);

@@ -5,7 +5,7 @@ use super::builder::Builder;
 use super::constant;
 use super::model::*;
 use takt_base::{Code, Diag, Span};
-use takt_image::types::Type;
+use takt_image::types::{PointerKind, Type};
 use takt_image::{Elementary, TypeId};
 
 /// How much freedom an expression's type has.
@@ -198,6 +198,7 @@ impl Builder<'_> {
         match self.ty(ty) {
             Type::Elementary(e) => Some(*e),
             Type::Enum { base, .. } if self.named_values.contains(&ty) => Some(*base),
+            Type::Pointer { kind: PointerKind::Pointer, .. } => Some(Elementary::Udint),
             _ => None,
         }
     }
@@ -239,6 +240,9 @@ impl Builder<'_> {
     fn widen(&mut self, o: Operand, to: TypeId) -> Result<Expr, Misfit> {
         if o.expr.ty == to {
             return Ok(o.expr);
+        }
+        if self.pointee(o.expr.ty).is_some() || self.pointee(to).is_some() {
+            return self.convert_pointer(&o.expr, to).ok_or(Misfit::Type);
         }
         if let Some(e) = self.widen_text(&o.expr, to)? {
             return Ok(e);

@@ -18,6 +18,8 @@ mod image;
 mod init;
 pub mod model;
 mod place;
+mod pointer;
+mod reference;
 mod scope;
 mod stmt;
 mod symbols;
