@@ -90,3 +90,59 @@ fn s1_3_words_of_edition_3_are_names_in_older_dialects() {
         assert_eq!(codes.is_empty(), !profile.reserves_new_words(), "{profile:?}: {codes:?}");
     }
 }
+
+#[test]
+fn s2_3_bit_strings_and_integers_mix_in_codesys() {
+    let text = "PROGRAM main VAR b : BYTE := 16#F0; w : WORD; d : DWORD := 7; i : INT := -1; n : DINT; r : REAL; l : LREAL := 0.5; t : TIME := T#1s500ms;
+            x, y, z : BOOL; END_VAR
+        w := b + 1; b := 255; b := b + 1; n := i AND 16#FF; d := d * 3 / 2 + i; i := w; w := i; n := NOT i; r := n; r := l + r;
+        x := w > 200; IF d THEN y := TRUE; END_IF; z := b = 0; d := t; t := d + 1; END_PROGRAM";
+    assert!(codes(Profile::Std, text).len() > 5);
+    let warnings = codes(Profile::Codesys, text);
+    assert!(warnings.iter().all(|c| *c == (Code::Narrowing, Severity::Warning)), "{warnings:?}");
+    let mut plc = Plc::new_in(Profile::Codesys2, text);
+    plc.scan(0).unwrap();
+    let get = |v: &str| plc.get(&format!("main.{v}"));
+    assert_eq!(["b", "w", "i", "n", "x", "y", "z"].map(get), ["0", "241", "241", "-242", "TRUE", "TRUE", "TRUE"]);
+    assert_eq!(["r", "d", "t"].map(get), ["-241.5", "1500", "T#1s501ms"]);
+}
+
+#[test]
+fn s5_4_vendors_compute_in_32_bits() {
+    let text = "PROGRAM main VAR a, b : SINT := 100; u : USINT := 3; v : USINT := 5; i : INT; s : SINT; x : BOOL; END_VAR
+        i := a + b; s := a + b; x := u - v < 0; v := u - v; i := i * 300 / 300; END_PROGRAM";
+    let std = "PROGRAM main VAR a, b : SINT := 100; s : SINT; END_VAR s := a + b; END_PROGRAM";
+    let mut plc = Plc::new(std);
+    plc.scan(0).unwrap();
+    assert_eq!(plc.get("main.s"), "-56");
+    for profile in [Profile::Codesys, Profile::Codesys2, Profile::OpenPlc] {
+        let codes = codes(profile, text);
+        assert!(codes.is_empty(), "{profile:?} {codes:?}");
+        let mut plc = Plc::new_in(profile, text);
+        plc.scan(0).unwrap();
+        assert_eq!(["i", "s", "x", "v"].map(|v| plc.get(&format!("main.{v}"))), ["200", "-56", "TRUE", "254"]);
+    }
+}
+
+#[test]
+fn s1_5_numbers_fill_bits_in_the_vendors_profiles() {
+    let text = "PROGRAM main VAR b : BYTE := 200; i : INT := 16#FFFF; r : REAL := 1.; s : SINT; END_VAR s := 16#80; END_PROGRAM";
+    assert_eq!(codes(Profile::Std, text).iter().filter(|c| c.1 == Severity::Error).count(), 3);
+    for profile in [Profile::Codesys, Profile::Codesys2, Profile::OpenPlc] {
+        let mut plc = Plc::new_in(profile, text);
+        plc.scan(0).unwrap();
+        assert_eq!(["b", "i", "r", "s"].map(|v| plc.get(&format!("main.{v}"))), ["200", "-1", "1.0", "-128"]);
+    }
+}
+
+#[test]
+fn s5_6_for_counts_in_any_place_of_codesys() {
+    let text = "TYPE S : STRUCT i : INT; n : INT; END_STRUCT END_TYPE
+        PROGRAM main VAR s : S; k : INT; END_VAR
+        FOR s.i := 1 TO 3 DO s.n := s.n + s.i; END_FOR FOR k := 1 TO 10 DO k := k + 1; s.n := s.n + 100; END_FOR END_PROGRAM";
+    assert!(codes(Profile::Std, text).iter().all(|c| *c == (Code::ForVariable, Severity::Error)));
+    assert_eq!(codes(Profile::Codesys, text), [(Code::ForVariable, Severity::Warning)]);
+    let mut plc = Plc::new_in(Profile::Codesys, text);
+    plc.scan(0).unwrap();
+    assert_eq!(["s.i", "s.n", "k"].map(|v| plc.get(&format!("main.{v}"))), ["4", "506", "11"]);
+}

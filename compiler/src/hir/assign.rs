@@ -57,8 +57,10 @@ impl Builder<'_> {
         let Base::Var(id) = place.base else { return true };
         if self.scope.controls.contains(&id) {
             let help = "the loop counts by itself; use WHILE to step freely";
-            self.report(Diag::new(Code::ForVariable, span, "controls the loop around this statement").help(help));
-            return false;
+            let diag = Diag::new(Code::ForVariable, span, "controls the loop around this statement").help(help);
+            let vendor = self.profile(span).is_vendor();
+            self.report(if vendor { diag.severity(Severity::Warning) } else { diag });
+            return vendor;
         }
         if self.scope.pou.is_some_and(|p| self.hir.pous[p].result == Some(id)) {
             self.scope.result_written = true;

@@ -35,6 +35,8 @@ pub(super) struct Builder<'a> {
     pub calls: Vec<(Option<PouId>, PouId, Span)>,
     /// Only the place of a variable is wanted, which may be that of a global whose value is being resolved.
     pub place_only: bool,
+    /// Values that the conversion in progress cuts: where, from what, to what.
+    pub narrowings: Vec<(Span, TypeId, TypeId)>,
     leaves: usize,
     depth: u32,
 }
@@ -58,6 +60,7 @@ impl<'a> Builder<'a> {
             image: ImagePlan::default(),
             calls: Vec::new(),
             place_only: false,
+            narrowings: Vec::new(),
             leaves: 0,
             depth: 0,
         }

@@ -16,6 +16,7 @@ mod declare;
 mod expr;
 mod image;
 mod init;
+mod lattice;
 pub mod model;
 mod place;
 mod pointer;

@@ -304,12 +304,12 @@ impl Builder<'_> {
             return None;
         }
         let o = self.settle(o);
-        let Some(kind) = self.elementary(o.ty).filter(|k| k.is_int()) else {
+        let Some(kind) = self.elementary(o.ty).filter(|k| self.counts(*k, o.span)) else {
             let label = format!("{}, an integer wanted", self.show(o.ty));
             self.report(Diag::new(Code::TypeMismatch, e.span, label).help("an index is an integer"));
             return None;
         };
-        let wide = kind.widens_to(Elementary::Dint);
+        let wide = kind.bits() < 32 || kind.widens_to(Elementary::Dint);
         let to = self.elem(if wide { Elementary::Dint } else { Elementary::Lint });
         if let ExprKind::Const(c) = &o.kind
             && let Some(value) = constant::int(c)

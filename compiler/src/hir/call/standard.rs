@@ -211,7 +211,7 @@ impl Builder<'_> {
         match (arg.flex, self.elementary(arg.expr.ty)) {
             (Flex::Int { .. }, _) => Some(self.fit(arg, lint)),
             (Flex::Real, _) if group != Generic::AnyInt => Some(self.fit(arg, lreal)),
-            (Flex::Fixed, Some(e)) if e.is_int() => Some(self.as_lint(arg.expr)),
+            (Flex::Fixed, Some(e)) if self.counts(e, arg.expr.span) => Some(self.as_lint(arg.expr)),
             (Flex::Fixed, Some(Elementary::Lreal)) if group != Generic::AnyInt => Some(arg.expr),
             (Flex::Fixed, Some(Elementary::Real)) if group != Generic::AnyInt => {
                 Some(self.wrap(Conversion::Real, arg.expr, lreal))

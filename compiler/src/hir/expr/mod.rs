@@ -55,6 +55,9 @@ impl Builder<'_> {
         if self.is_bad(&o) || self.fits(&o, bool) {
             return self.fit(o, bool);
         }
+        if let Some(truth) = self.truth_of(o.expr.clone()).filter(|_| o.flex == Flex::Fixed) {
+            return truth;
+        }
         let label = if o.flex == Flex::Fixed { self.show(o.expr.ty) } else { "a number".to_owned() };
         let help = "compare it: `<> 0` gives BOOL";
         self.report(Diag::new(Code::NotBool, e.span, label).help(help));

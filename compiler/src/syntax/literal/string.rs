@@ -59,7 +59,7 @@ fn decode<U: Units>(token: &str) -> Result<U, Problem> {
                     chars.next();
                 }
             }
-            c if c.is_control() => {
+            c if c.is_ascii_control() => {
                 let problem = Problem::new(Code::BadEscape, format!("the control character U+{:04X} in a string", c as u32));
                 return Err(problem.at(i + 1, i + 1 + c.len_utf8()).help("write it as an escape: $T for TAB"));
             }

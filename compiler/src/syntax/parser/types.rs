@@ -5,8 +5,8 @@ use super::cursor::Parser;
 use crate::syntax::ast::{Arg, EnumDecl, Expr, ExprKind, Init, Name, TypeBody, TypeDecl, TypeRef, TypeRefKind, VarDecl};
 use crate::syntax::keyword::Kw;
 use crate::syntax::lexer::Tok;
-use takt_base::Span;
 use takt_base::diag::{Code, Diag};
+use takt_base::{Profile, Span};
 use takt_image::types::PointerKind;
 
 impl Parser<'_> {
@@ -94,7 +94,7 @@ impl Parser<'_> {
             return None;
         }
         self.bump();
-        let init = self.init();
+        let init = if self.profile == Profile::Codesys2 { self.init_without_brackets() } else { self.init() };
         if self.at(Tok::Comma) {
             let diag = self.expected_diag("`;` behind the initial value");
             self.error(diag.help("write the values of an array in brackets: [1, 2, 3]"));

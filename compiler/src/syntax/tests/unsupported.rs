@@ -68,9 +68,6 @@ fn sections_and_types() {
 
 #[test]
 fn statements() {
-    lacks("S=", "PROGRAM p x S= y AND z; END_PROGRAM");
-    lacks("R=", "PROGRAM p x.y r= y; END_PROGRAM");
-    lacks("chain", "PROGRAM p x := y := 1; END_PROGRAM");
     lacks("assignment inside", "PROGRAM p IF (x := y) THEN z(); END_IF; END_PROGRAM");
     lacks("label", "PROGRAM p again: x := 1; END_PROGRAM");
     lacks("label", "PROGRAM p again:\n x := 1; END_PROGRAM");
@@ -100,4 +97,11 @@ fn an_open_construct_ends_at_the_next_unit() {
     assert_eq!(printed("FUNCTION_BLOCK b METHOD m x := 1; END_FUNCTION_BLOCK PROGRAM p END_PROGRAM"), "(fb b) (program p)");
     assert_eq!(printed("CLASS c METHOD m END_METHOD PROGRAM p END_PROGRAM"), "(program p)");
     assert_eq!(printed("PROGRAM a VAR_CONFIG x.y : INT; END_PROGRAM PROGRAM p END_PROGRAM"), "(program a) (program p)");
+}
+
+/// Forms of another profile are understood and named.
+#[test]
+fn vendor_forms() {
+    assert_eq!(codes("PROGRAM p x S= y AND z; END_PROGRAM"), ["P0014 1:13"]);
+    assert_eq!(codes("PROGRAM p x := y := 1; x := 1; END_PROGRAM"), ["P0014 1:18"]);
 }
