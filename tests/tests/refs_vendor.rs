@@ -214,7 +214,7 @@ fn a_changed_in_out_traps() {
     for value in ["12", "63", "16#FFFFFFF0", "16#7FFFFFFF"] {
         assert_eq!(Plc::new_in(V2, &text(value)).scan(0).err().map(|f| f.trap), Some(Trap::WildPointer), "{value}");
     }
-    let mut plc = Plc::new_in(V2, &text("p + 4"));
+    let mut plc = Plc::new_in(V2, &text("p + 8"));
     plc.scans(1);
     assert_eq!([plc.get("Main.x"), plc.get("Main.y")], ["0", "9"]);
 }
