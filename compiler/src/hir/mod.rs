@@ -19,6 +19,8 @@ mod init;
 mod lattice;
 pub mod model;
 mod place;
+mod pointer;
+mod reference;
 mod scope;
 mod stmt;
 mod symbols;
