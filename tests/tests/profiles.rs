@@ -197,3 +197,13 @@ fn s1_4_conditional_compilation() {
     assert_eq!(plc.get("main.x"), "1");
     assert_eq!(codes(Profile::Codesys, "{IF defined(a)} PROGRAM p END_PROGRAM"), [(Code::Expected, Severity::Error)]);
 }
+
+#[test]
+fn s12_a_constant_may_be_declared_behind_its_use_in_a_bound() {
+    let text =
+        "FUNCTION_BLOCK f VAR a : ARRAY[0..n] OF INT; END_VAR VAR_OUTPUT y : INT; END_VAR VAR CONSTANT n : INT := 3; END_VAR
+        a[n] := 7; y := a[3]; END_FUNCTION_BLOCK PROGRAM main VAR b : f; END_VAR b(); END_PROGRAM";
+    let mut plc = Plc::new_in(Profile::Codesys2, text);
+    plc.scan(0).unwrap();
+    assert_eq!(plc.get("main.b.y"), "7");
+}
