@@ -218,7 +218,7 @@ fn l2_6_conversions_between_bits_and_numbers() {
         plc.scan(0).unwrap();
         let want = match profile {
             Profile::Std => ["65535", "1.0", "1065353216", "FALSE"],
-            _ => ["4294967295", "1065353216.0", "1", "TRUE"],
+            _ => ["4294967295", "1065353200.0", "1", "TRUE"],
         };
         assert_eq!(["d", "r", "dr", "b"].map(|v| plc.get(&format!("main.{v}"))), want, "{profile:?}");
     }
