@@ -222,7 +222,7 @@ fn l2_6_conversions_between_bits_and_numbers() {
         };
         assert_eq!(["d", "r", "dr", "b"].map(|v| plc.get(&format!("main.{v}"))), want, "{profile:?}");
     }
-    let other_width = "PROGRAM main VAR w : WORD := 40000; r : REAL; END_VAR r := WORD_TO_REAL(w); END_PROGRAM";
+    let other_width = "PROGRAM main VAR w : WORD := 16#9C40; r : REAL; END_VAR r := WORD_TO_REAL(w); END_PROGRAM";
     assert_eq!(codes(Profile::Std, other_width), [(Code::TypeMismatch, Severity::Error)]);
     let mut plc = Plc::new_in(Profile::Codesys2, other_width);
     plc.scan(0).unwrap();
