@@ -153,7 +153,7 @@ impl Builder<'_> {
                 }
             },
         };
-        if !self.ensure_global(id) && !(self.place_only && self.hir.globals[id].ty != self.error) {
+        if !(self.ensure_global(id) || self.place_only && self.hir.globals[id].ty != self.error) {
             let label = format!("the value of `{}` depends on itself", n.text);
             self.error(Code::NotConstant, n.span, label);
             return None;
