@@ -12,7 +12,7 @@ pub(crate) struct Conditional {
 
 /// An IF that is open.
 struct Branch {
-    /// The text here counts.
+    /// The text here counts: also that around the IF does.
     active: bool,
     /// A branch of this IF has been taken, or the IF itself stands in text that does not count.
     taken: bool,
@@ -32,7 +32,7 @@ pub(crate) enum Mistake {
 impl Conditional {
     /// True if the text here counts.
     pub(crate) fn is_active(&self) -> bool {
-        self.open.iter().all(|b| b.active)
+        self.open.last().is_none_or(|b| b.active)
     }
 
     /// True if an IF is open.

@@ -178,7 +178,7 @@ pub(crate) fn lex(text: &str, source: SourceId, profile: Profile, report: &mut R
         };
         let Some(kind) = kind.filter(|_| scan.conditional.is_active()) else { continue };
         let kw = if kind == Tok::Word { Kw::of(scan.logos.slice()) } else { Kw::None };
-        let kw = if kw.is_new() && !profile.reserves_new_words() { Kw::None } else { kw };
+        let kw = if !profile.reserves_new_words() && kw.is_new() { Kw::None } else { kw };
         list.push(Token { kind, kw, start: start as u32, end: scan.logos.span().end as u32 });
         if profile == Profile::Codesys2 && kind == Tok::Word && is_graphic_body(scan.logos.slice()) {
             scan.skip_graphic_body();

@@ -179,7 +179,7 @@ impl Parser<'_> {
                 self.bump();
                 StmtKind::Attempt { target, value: self.expr() }
             }
-            Tok::Word if self.set_or_reset().is_some() => self.chain(target),
+            Tok::Word if self.set_or_reset().is_some() => self.chain(Vec::new(), target),
             Tok::Word if self.is_word_and_equals("REF") => self.bind(target),
             _ => self.call_statement(target),
         }
@@ -224,14 +224,10 @@ impl Parser<'_> {
         word.eq_ignore_ascii_case(self.text_of(here)) && next.kind == Tok::Eq && next.start == here.end
     }
 
-    /// `a S= b := value`: from the first operator on.
-    fn chain(&mut self, first: Expr) -> StmtKind {
-        let mut targets = Vec::new();
-        let mut last = first;
+    /// `a S= b := value`: the targets so far, and what stands before the operator that makes it a chain.
+    fn chain(&mut self, mut targets: Vec<(Expr, AssignOp)>, mut last: Expr) -> StmtKind {
+        self.codesys_form(if self.at(Tok::Assign) { "a chain of assignments" } else { "S= and R=" });
         while let Some(op) = self.chain_operator() {
-            if targets.is_empty() {
-                self.codesys_form(if op == AssignOp::Assign { "a chain of assignments" } else { "S= and R=" });
-            }
             self.bump();
             if op != AssignOp::Assign {
                 self.bump();
@@ -255,13 +251,7 @@ impl Parser<'_> {
         if self.chain_operator().is_none() {
             return StmtKind::Assign { target, value };
         }
-        match self.chain(value) {
-            StmtKind::Chain { mut targets, value } => {
-                targets.insert(0, (target, AssignOp::Assign));
-                StmtKind::Chain { targets, value }
-            }
-            other => other,
-        }
+        self.chain(vec![(target, AssignOp::Assign)], value)
     }
 
     fn equals_as_assign(&mut self, target: Expr) -> StmtKind {
