@@ -239,6 +239,17 @@ impl TypeTable {
         }
     }
 
+    /// True if the type is of this kind, or holds one that is; what a reference refers to is not looked into.
+    pub fn holds(&self, id: TypeId, kind: fn(&Type) -> bool) -> bool {
+        let ty = self.get(id);
+        kind(ty)
+            || match ty {
+                Type::Array { element, .. } => self.holds(*element, kind),
+                Type::Struct(r) | Type::Instance(r) => r.fields.iter().any(|f| self.holds(f.ty, kind)),
+                _ => false,
+            }
+    }
+
     /// Lays members out in order and gives the record its size.
     pub fn record(&self, name: impl Into<String>, members: impl IntoIterator<Item = (String, TypeId, Section, bool)>) -> Record {
         let mut record = Record { name: name.into(), fields: Vec::new(), size: 0, align: 1 };

@@ -279,18 +279,9 @@ impl Builder<'_> {
     /// References can't be retained or located: the number would mean something else (§2.10).
     pub(super) fn check_kept_reference(&mut self, ty: TypeId, retain: bool, located: bool, span: Span) {
         let refused = located || retain && !self.profile(span).is_codesys();
-        if refused && self.holds_reference(ty) {
+        if refused && self.hir.types.holds(ty, |t| matches!(t, Type::Pointer { .. })) {
             let help = "set the reference when the program starts";
             self.report(Diag::new(Code::ReferenceKept, span, self.show(ty)).help(help));
-        }
-    }
-
-    fn holds_reference(&self, ty: TypeId) -> bool {
-        match self.ty(ty) {
-            Type::Pointer { .. } => true,
-            Type::Array { element, .. } => self.holds_reference(*element),
-            Type::Struct(r) | Type::Instance(r) => r.fields.iter().any(|f| self.holds_reference(f.ty)),
-            _ => false,
         }
     }
 }

@@ -85,11 +85,6 @@ impl Builder<'_> {
     }
 
     fn holds_instance(&self, ty: TypeId) -> bool {
-        match self.ty(ty) {
-            Type::Instance(_) => true,
-            Type::Array { element, .. } => self.holds_instance(*element),
-            Type::Struct(r) => r.fields.iter().any(|f| self.holds_instance(f.ty)),
-            _ => false,
-        }
+        self.hir.types.holds(ty, |t| matches!(t, Type::Instance(_)))
     }
 }

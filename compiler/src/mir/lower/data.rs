@@ -10,7 +10,7 @@ use takt_base::index::IndexVec;
 use takt_base::{Code, Diag, SourceId, Span};
 use takt_image::image::{Chunk, Place as ImagePlace, Symbol};
 use takt_image::memory::{FRAME_BYTES, MAX_MEMORY};
-use takt_image::{Elementary, MemoryMap, Type, TypeId, TypeTable};
+use takt_image::{Elementary, MemoryMap, Type, TypeId};
 
 /// Places of everything that lives as long as the program.
 pub struct Data {
@@ -95,7 +95,7 @@ impl Data {
 
     fn global(&mut self, hir: &Hir, g: &Global) -> Result<ImagePlace, Diag> {
         let offset = self.reserve(hir, g.ty, g.span, &g.name)?;
-        if has_instance(&hir.types, g.ty) {
+        if hir.types.holds(g.ty, |t| matches!(t, Type::Instance(_))) {
             let first = if self.named_instances.is_empty() { offset as u64 } else { self.named_instances.start };
             self.named_instances = first..self.next;
         }
@@ -139,16 +139,6 @@ impl Data {
         let [i, q, m] = hir.image_bytes;
         let size = u32::try_from(self.next - self.start as u64).ok()?;
         Some((MemoryMap::new(i, q, m, size, FRAME_BYTES)?, self.chunks.finish()))
-    }
-}
-
-/// True if a function block is in a variable of this type.
-fn has_instance(types: &TypeTable, ty: TypeId) -> bool {
-    match types.get(ty) {
-        Type::Instance(_) => true,
-        Type::Array { element, .. } => has_instance(types, *element),
-        Type::Struct(r) => r.fields.iter().any(|f| has_instance(types, f.ty)),
-        _ => false,
     }
 }
 
