@@ -9,7 +9,7 @@ use takt_image::TypeId;
 impl Builder<'_> {
     /// The statements that a chain stands for: the value into a variable of the compiler's own, then into the targets.
     pub(super) fn chain(&mut self, targets: &[(ast::Expr, AssignOp)], value: &ast::Expr, span: Span) -> Vec<Stmt> {
-        let mut places: Vec<_> = targets.iter().map(|(e, op)| (self.chain_target(e, *op), *op, e.span)).collect();
+        let places: Vec<_> = targets.iter().map(|(e, op)| (self.chain_target(e, *op), *op, e.span)).collect();
         let want = places.last().and_then(|(p, op, _)| if *op == AssignOp::Assign { p.as_ref() } else { None });
         let want = want.map(|p| p.ty).or_else(|| targets.iter().any(|t| t.1 != AssignOp::Assign).then(|| self.bool()));
         let value = self.operand(value, want);
@@ -21,7 +21,7 @@ impl Builder<'_> {
             return Vec::new();
         }
         let (kept, mut list) = self.kept(value, span);
-        for (place, op, at) in places.drain(..).rev() {
+        for (place, op, at) in places.into_iter().rev() {
             let Some(target) = place else { continue };
             let value = super::convert::Operand::fixed(kept.clone());
             let kind = match op {
@@ -37,10 +37,9 @@ impl Builder<'_> {
     }
 
     fn chain_target(&mut self, e: &ast::Expr, op: AssignOp) -> Option<Place> {
-        let place = self.writable(e)?;
-        let bool = self.bool();
-        if op == AssignOp::Assign || place.ty == bool || place.ty == self.error {
-            return (place.ty != self.error).then_some(place);
+        let place = self.writable(e).filter(|p| p.ty != self.error)?;
+        if op == AssignOp::Assign || place.ty == self.bool() {
+            return Some(place);
         }
         let label = format!("{}, BOOL wanted", self.show(place.ty));
         self.report(Diag::new(Code::TypeMismatch, e.span, label).help("S= and R= set and reset a BOOL variable"));

@@ -6,7 +6,7 @@ use super::constant;
 use super::model::*;
 use crate::syntax::ast::BinaryOp;
 use takt_base::{Profile, Span};
-use takt_image::{Elementary as E, TypeId};
+use takt_image::Elementary as E;
 use takt_stdlib::catalog::Intrinsic;
 
 /// How well a type stands where another is wanted.
@@ -30,7 +30,7 @@ pub(super) fn fit(profile: Profile, from: E, to: E) -> Fit {
         return Fit::No;
     }
     match (as_integer(from), as_integer(to)) {
-        (Some(a), Some(b)) if a.widens_to(b) => Fit::Whole,
+        (Some(_), Some(_)) if is_part_of(from, to) => Fit::Whole,
         (Some(_), Some(_)) => Fit::Narrowed,
         (Some(_), None) if to.is_real() => Fit::Whole,
         (None, None) if from == E::Lreal && to == E::Real => Fit::Narrowed,
@@ -66,6 +66,16 @@ fn as_integer(e: E) -> Option<E> {
     })
 }
 
+/// An integer, or a bit string other than BOOL.
+pub(super) fn is_number(e: E) -> bool {
+    as_integer(e).is_some()
+}
+
+/// True if both are numbers and every value of `from` is one of `to`.
+fn is_part_of(from: E, to: E) -> bool {
+    as_integer(from).zip(as_integer(to)).is_some_and(|(a, b)| a.widens_to(b))
+}
+
 /// True for operators whose result may need more bits than the operands have.
 pub(super) fn grows(op: BinaryOp) -> bool {
     matches!(op, BinaryOp::Add | BinaryOp::Sub | BinaryOp::Mul | BinaryOp::Div | BinaryOp::Mod)
@@ -86,12 +96,7 @@ impl Builder<'_> {
     /// that the user could see.
     pub(super) fn is_made_of(&self, e: &Expr, to: E) -> bool {
         match &e.kind {
-            _ if self
-                .elementary(e.ty)
-                .is_some_and(|t| as_integer(t).zip(as_integer(to)).is_some_and(|(a, b)| a.widens_to(b))) =>
-            {
-                true
-            }
+            _ if self.elementary(e.ty).is_some_and(|t| is_part_of(t, to)) => true,
             ExprKind::Const(c) => constant::int(c).is_some_and(|v| constant::checked(to, v).is_ok()),
             ExprKind::Convert(Conversion::Integer | Conversion::Subrange, a) | ExprKind::Neg(a) => self.is_made_of(a, to),
             ExprKind::Binary(op, a, b) if grows(*op) => self.is_made_of(a, to) && self.is_made_of(b, to),
@@ -105,7 +110,7 @@ impl Builder<'_> {
 
     /// True for what counts: an integer, or a bit string where it is one (vendors).
     pub(super) fn counts(&self, e: E, span: Span) -> bool {
-        e.is_int() || self.profile(span).mixes_bits_and_integers() && as_integer(e).is_some()
+        e.is_int() || self.profile(span).mixes_bits_and_integers() && is_number(e)
     }
 
     /// The operand of a sign as the vendors compute it: small integers and bit strings in a signed type that holds them.
@@ -125,8 +130,8 @@ impl Builder<'_> {
 
     /// A number or a bit string as BOOL (vendors): TRUE unless it is zero.
     pub(super) fn truth_of(&mut self, e: Expr) -> Option<Expr> {
-        let number = self.elementary(e.ty).is_some_and(|t| as_integer(t).is_some());
-        let bool: TypeId = self.bool();
+        let number = self.elementary(e.ty).is_some_and(is_number);
+        let bool = self.bool();
         (number && self.profile(e.span).is_codesys()).then(|| self.wrap(Conversion::NonZero, e, bool))
     }
 }

@@ -2,6 +2,7 @@
 
 use super::builder::Builder;
 use super::convert::{Flex, Operand, constant_expr};
+use super::lattice::is_number;
 use super::model::*;
 use super::place::Target;
 use crate::syntax::ast::{self, BinaryOp};
@@ -134,8 +135,4 @@ impl Builder<'_> {
         };
         fits.then(|| self.wrap(Conversion::Integer, e.clone(), to))
     }
-}
-
-fn is_number(e: Elementary) -> bool {
-    e.is_int() || e.is_bit() && e != Elementary::Bool
 }

@@ -69,30 +69,27 @@ pub(super) struct Symbols<'a> {
 struct Names {
     /// By the user's files.
     user: HashSet<String>,
-    /// By all files.
-    all: HashSet<String>,
+    /// By library files.
+    library: HashSet<String>,
 }
 
 impl Names {
     /// True for the name of a type that no file declares.
     fn lacks(&self, ty: &ast::TypeRef) -> bool {
         let ast::TypeRefKind::Named(name) = &ty.kind else { return false };
-        !self.all.contains(&name.key()) && Elementary::from_name(&name.text).is_none()
+        ![&self.user, &self.library].iter().any(|names| names.contains(&name.key()))
+            && Elementary::from_name(&name.text).is_none()
     }
 }
 
 impl<'a> Builder<'a> {
     /// Collects all declarations. A user's declaration replaces a library's of the same name.
     pub fn collect(&mut self, files: &'a [(SourceId, ast::File)]) {
-        let names = Names {
-            user: files
-                .iter()
-                .filter(|(id, _)| !self.sources.get(*id).library)
-                .flat_map(|(_, f)| &f.items)
-                .flat_map(item_names)
-                .collect(),
-            all: files.iter().flat_map(|(_, f)| &f.items).flat_map(item_names).collect(),
+        let names_in = |library: bool| {
+            let files = files.iter().filter(|(id, _)| self.sources.get(*id).library == library);
+            files.flat_map(|(_, f)| &f.items).flat_map(item_names).collect()
         };
+        let names = Names { user: names_in(false), library: names_in(true) };
         for (source, file) in files {
             let library = self.sources.get(*source).library;
             for item in &file.items {

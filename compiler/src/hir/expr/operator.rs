@@ -174,13 +174,13 @@ impl Builder<'_> {
             };
         };
         // Bit strings compute as unsigned integers, and integers have logic (vendor).
-        let mixes = self.profile(span).mixes_bits_and_integers() && e != Elementary::Bool;
-        let number = e.is_int() || e.is_bit() && mixes;
+        let number = self.counts(e, span);
+        let logic = e.is_bit() || e.is_int() && self.profile(span).mixes_bits_and_integers();
         match op {
             Add | Sub => number || e.is_real() || e.is_duration(),
             Mul | Div => number || e.is_real(),
             Mod => number,
-            And | Or | Xor => e.is_bit() || e.is_int() && mixes,
+            And | Or | Xor => logic,
             AndThen | OrElse => e == Elementary::Bool,
             Eq | Ne | Lt | Gt | Le | Ge => true,
             Power => e.is_real(),

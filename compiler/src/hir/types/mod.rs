@@ -14,7 +14,6 @@ use takt_image::memory::MAX_MEMORY;
 use takt_image::types::Type;
 use takt_image::{Elementary, TypeId};
 
-/// Characters of a STRING without a length.
 /// Most characters of a STRING.
 pub(super) const STRING_MAX: u32 = 32767;
 

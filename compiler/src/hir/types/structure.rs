@@ -37,8 +37,14 @@ impl Builder<'_> {
             }
         }
         let Some((record, default)) = self.record(name, members, at) else { return self.bad_type() };
-        let ty = id.unwrap_or_else(|| self.hir.types.add(Type::Struct(record.clone())));
-        self.hir.types.replace(ty, Type::Struct(record));
+        let body = Type::Struct(record);
+        let ty = match id {
+            Some(id) => {
+                self.hir.types.replace(id, body);
+                id
+            }
+            None => self.hir.types.add(body),
+        };
         self.defaults.insert(ty, default);
         self.plain(ty)
     }
