@@ -17,7 +17,7 @@ use crate::project::Problem;
 #[derive(clap::Args)]
 pub struct Profile {
     /// Language profile of every source file [default: as takt.toml says, else std; codesys2 for .exp]
-    #[arg(long = "profile", value_name = "NAME", value_parser = ["std", "codesys", "codesys2", "openplc"])]
+    #[arg(long = "profile", value_name = "NAME", value_parser = takt_base::Profile::ALL.map(takt_base::Profile::name))]
     name: Option<String>,
 }
 

@@ -111,8 +111,7 @@ fn folder(dir: &Path) -> Result<Project, Problem> {
 
 fn plain_files(files: &[PathBuf]) -> Result<Project, Problem> {
     for file in files {
-        let extension = file.extension().and_then(|e| e.to_str()).unwrap_or("");
-        if file.exists() && !SOURCE_EXTENSIONS.iter().any(|e| e.eq_ignore_ascii_case(extension)) {
+        if file.exists() && !is_source(file) {
             let text = format!("{}: this version reads *.st, *.exp and project folders", file.display());
             return Err(Problem::File(Code::BadProjectFile, text));
         }
@@ -129,8 +128,7 @@ fn folder_name(dir: &Path) -> String {
 
 fn sources_in(dir: &Path) -> Result<Vec<PathBuf>, Problem> {
     let entries = dir.read_dir().map_err(|e| unreadable(dir, &e))?;
-    let mut names: Vec<_> =
-        entries.flatten().map(|e| e.path()).filter(|p| SOURCE_EXTENSIONS.iter().any(|e| has_extension(p, e))).collect();
+    let mut names: Vec<_> = entries.flatten().map(|e| e.path()).filter(|p| is_source(p)).collect();
     names.sort();
     Ok(names)
 }
@@ -142,6 +140,10 @@ fn read_all(names: &[PathBuf], profile: Profile) -> Result<Vec<SourceFile>, Prob
         profile => profile,
     };
     names.iter().map(|n| Ok(SourceFile { name: n.display().to_string(), bytes: read(n)?, profile: profile_of(n) })).collect()
+}
+
+fn is_source(path: &Path) -> bool {
+    SOURCE_EXTENSIONS.iter().any(|e| has_extension(path, e))
 }
 
 fn has_extension(path: &Path, wanted: &str) -> bool {
