@@ -112,19 +112,9 @@ impl Profile {
         self.is_codesys()
     }
 
-    /// Times and dates convert to and from numbers of seconds; otherwise durations and times of day count milliseconds.
-    pub const fn counts_time_in_seconds(self) -> bool {
-        matches!(self, Profile::OpenPlc)
-    }
-
     /// CTU stops at PV and CTD at 0.
     pub const fn counters_stop_at_preset(self) -> bool {
         matches!(self, Profile::OpenPlc)
-    }
-
-    /// Bytes of a pointer as SIZEOF tells them.
-    pub const fn pointer_bytes(self) -> u32 {
-        if matches!(self, Profile::Codesys2) { 4 } else { 8 }
     }
 }
 

@@ -7,6 +7,13 @@ fn codes(profile: Profile, text: &str) -> Vec<(Code, Severity)> {
     compile_in(profile, text).diags.iter().map(|d| (d.code, d.severity)).collect()
 }
 
+/// Variables of `main` after one scan.
+fn values<const N: usize>(profile: Profile, text: &str, names: [&str; N]) -> [String; N] {
+    let mut plc = Plc::new_in(profile, text);
+    plc.scan(0).unwrap();
+    names.map(|name| plc.get(&format!("main.{name}")))
+}
+
 #[test]
 fn s0_inputs_may_be_written_with_a_warning() {
     let text = "FUNCTION f : INT VAR_INPUT a : INT; END_VAR a := a + 1; f := a; END_FUNCTION
@@ -15,9 +22,7 @@ fn s0_inputs_may_be_written_with_a_warning() {
         let severity = if profile.is_codesys() { Severity::Warning } else { Severity::Error };
         assert_eq!(codes(profile, text), [(Code::AssignToInput, severity)], "{profile:?}");
     }
-    let mut plc = Plc::new_in(Profile::Codesys, text);
-    plc.scan(0).unwrap();
-    assert_eq!((plc.get("main.x"), plc.get("main.y")), ("4".into(), "5".into()));
+    assert_eq!(values(Profile::Codesys, text, ["x", "y"]), ["4", "5"]);
 }
 
 #[test]
@@ -25,10 +30,7 @@ fn s0_writing_an_aggregate_input_leaves_the_callers_value_alone() {
     let text = "TYPE A : ARRAY[0..2] OF INT; END_TYPE
         FUNCTION f : INT VAR_INPUT a : A; s : STRING; END_VAR a[1] := 7; s := 'new'; f := a[1]; END_FUNCTION
         PROGRAM main VAR x : A := [1, 2, 3]; t : STRING := 'old'; y : INT; END_VAR y := f(x, t); END_PROGRAM";
-    let mut plc = Plc::new_in(Profile::Codesys2, text);
-    plc.scan(0).unwrap();
-    let got = ["main.x[1]", "main.t", "main.y"].map(|p| plc.get(p));
-    assert_eq!(got, ["2", "'old'", "7"]);
+    assert_eq!(values(Profile::Codesys2, text, ["x[1]", "t", "y"]), ["2", "'old'", "7"]);
 }
 
 #[test]
@@ -36,9 +38,7 @@ fn s0_default_string_length() {
     let text = "PROGRAM main VAR s : STRING; n : INT; END_VAR
         WHILE LEN(s) = n DO n := n + 1; s := CONCAT(s, 'x'); END_WHILE n := LEN(s); END_PROGRAM";
     for (profile, length) in Profile::ALL.into_iter().zip(["254", "80", "80", "126"]) {
-        let mut plc = Plc::new_in(profile, text);
-        plc.scan(0).unwrap();
-        assert_eq!(plc.get("main.n"), length, "{profile:?}");
+        assert_eq!(values(profile, text, ["n"]), [length], "{profile:?}");
     }
 }
 
@@ -46,9 +46,7 @@ fn s0_default_string_length() {
 fn s12_nested_comments_end_where_the_profile_says() {
     let nested = "PROGRAM main VAR x : INT; END_VAR x := 1; (* a (* b *) x := 2; (* c *) END_PROGRAM";
     assert!(codes(Profile::Codesys, nested).iter().any(|c| c.0 == Code::UnterminatedComment));
-    let mut plc = Plc::new_in(Profile::Codesys2, nested);
-    plc.scan(0).unwrap();
-    assert_eq!(plc.get("main.x"), "2");
+    assert_eq!(values(Profile::Codesys2, nested, ["x"]), ["2"]);
     let marked = format!("(* @NESTEDCOMMENTS := 'Yes' *) {nested}");
     assert!(codes(Profile::Codesys2, &marked).iter().any(|c| c.0 == Code::UnterminatedComment));
 }
@@ -118,9 +116,7 @@ fn s5_4_vendors_compute_in_32_bits() {
     for profile in [Profile::Codesys, Profile::Codesys2, Profile::OpenPlc] {
         let codes = codes(profile, text);
         assert!(codes.is_empty(), "{profile:?} {codes:?}");
-        let mut plc = Plc::new_in(profile, text);
-        plc.scan(0).unwrap();
-        assert_eq!(["i", "s", "x", "v"].map(|v| plc.get(&format!("main.{v}"))), ["200", "-56", "TRUE", "254"]);
+        assert_eq!(values(profile, text, ["i", "s", "x", "v"]), ["200", "-56", "TRUE", "254"]);
     }
 }
 
@@ -129,9 +125,7 @@ fn s1_5_numbers_fill_bits_in_the_vendors_profiles() {
     let text = "PROGRAM main VAR b : BYTE := 200; i : INT := 16#FFFF; r : REAL := 1.; s : SINT; END_VAR s := 16#80; END_PROGRAM";
     assert_eq!(codes(Profile::Std, text).iter().filter(|c| c.1 == Severity::Error).count(), 3);
     for profile in [Profile::Codesys, Profile::Codesys2, Profile::OpenPlc] {
-        let mut plc = Plc::new_in(profile, text);
-        plc.scan(0).unwrap();
-        assert_eq!(["b", "i", "r", "s"].map(|v| plc.get(&format!("main.{v}"))), ["200", "-1", "1.0", "-128"]);
+        assert_eq!(values(profile, text, ["b", "i", "r", "s"]), ["200", "-1", "1.0", "-128"]);
     }
 }
 
@@ -142,9 +136,7 @@ fn s5_6_for_counts_in_any_place_of_codesys() {
         FOR s.i := 1 TO 3 DO s.n := s.n + s.i; END_FOR FOR k := 1 TO 10 DO k := k + 1; s.n := s.n + 100; END_FOR END_PROGRAM";
     assert!(codes(Profile::Std, text).iter().all(|c| *c == (Code::ForVariable, Severity::Error)));
     assert_eq!(codes(Profile::Codesys, text), [(Code::ForVariable, Severity::Warning)]);
-    let mut plc = Plc::new_in(Profile::Codesys, text);
-    plc.scan(0).unwrap();
-    assert_eq!(["s.i", "s.n", "k"].map(|v| plc.get(&format!("main.{v}"))), ["4", "506", "11"]);
+    assert_eq!(values(Profile::Codesys, text, ["s.i", "s.n", "k"]), ["4", "506", "11"]);
 }
 
 #[test]
@@ -152,13 +144,9 @@ fn s12_lists_without_brackets_and_the_prelude_of_codesys_2() {
     let text = "TYPE CONSTANTS_MATH : STRUCT PI : REAL := 3.14; FACTS : ARRAY[0..3] OF DINT := 1,1,2,6; N : ARRAY[1..2, 1..3] OF INT := 2(7), 3(0), 5; END_STRUCT END_TYPE
         FUNCTIONBLOCK f VAR a : ARRAY[1..4] OF INT := 1, 2(5), 9; END_VAR VAR_OUTPUT y : DINT; END_VAR y := a[3] + math.FACTS[3]; END_FUNCTION_BLOCK
         PROGRAM main VAR b : f; s : STRING(STRING_LENGTH); r : REAL; n : INT; END_VAR b(); r := MATH.PI; n := MATH.N[2, 3] + MATH.N[1, 2] + LIST_LENGTH; END_PROGRAM";
-    let mut plc = Plc::new_in(Profile::Codesys2, text);
-    plc.scan(0).unwrap();
-    assert_eq!(["b.y", "r", "n"].map(|v| plc.get(&format!("main.{v}"))), ["11", "3.14", "262"]);
+    assert_eq!(values(Profile::Codesys2, text, ["b.y", "r", "n"]), ["11", "3.14", "262"]);
     let own = text.replace("PROGRAM main", "VAR_GLOBAL MATH : CONSTANTS_MATH := (PI := 3.0); END_VAR PROGRAM main");
-    let mut plc = Plc::new_in(Profile::Codesys2, &own);
-    plc.scan(0).unwrap();
-    assert_eq!(plc.get("main.r"), "3.0");
+    assert_eq!(values(Profile::Codesys2, &own, ["r"]), ["3.0"]);
     assert!(!codes(Profile::Codesys, text).is_empty());
 }
 
@@ -166,9 +154,7 @@ fn s12_lists_without_brackets_and_the_prelude_of_codesys_2() {
 fn s12_bit_strings_count_and_take_signs_in_codesys() {
     let text = "PROGRAM main VAR a : ARRAY[0..3] OF INT := [1, 2, 3, 4]; b : BYTE := 2; w : WORD := 1; n : BYTE := 1; i, j : INT; d : DINT; END_VAR
         i := a[b]; w := SHL(w, b + 1); j := -b; d := i * 60000 + -n; END_PROGRAM";
-    let mut plc = Plc::new_in(Profile::Codesys2, text);
-    plc.scan(0).unwrap();
-    assert_eq!(["i", "w", "j", "d"].map(|v| plc.get(&format!("main.{v}"))), ["3", "8", "-2", "179999"]);
+    assert_eq!(values(Profile::Codesys2, text, ["i", "w", "j", "d"]), ["3", "8", "-2", "179999"]);
 }
 
 #[test]
@@ -192,9 +178,7 @@ fn s17_a_graphical_body_of_an_export_is_named_and_skipped() {
 fn s1_4_conditional_compilation() {
     let text = "{define fast}\nPROGRAM main VAR x : INT; END_VAR\n{IF defined(fast)} x := 1; {ELSE} x := := 2; {END_IF}\n{IF NOT defined(fast)} x := 3; {END_IF} END_PROGRAM";
     assert!(codes(Profile::Std, text).iter().any(|c| c.0 == Code::NotSupportedYet));
-    let mut plc = Plc::new_in(Profile::Codesys, text);
-    plc.scan(0).unwrap();
-    assert_eq!(plc.get("main.x"), "1");
+    assert_eq!(values(Profile::Codesys, text, ["x"]), ["1"]);
     assert_eq!(codes(Profile::Codesys, "{IF defined(a)} PROGRAM p END_PROGRAM"), [(Code::Expected, Severity::Error)]);
 }
 
@@ -203,9 +187,7 @@ fn s12_a_constant_may_be_declared_behind_its_use_in_a_bound() {
     let text =
         "FUNCTION_BLOCK f VAR a : ARRAY[0..n] OF INT; END_VAR VAR_OUTPUT y : INT; END_VAR VAR CONSTANT n : INT := 3; END_VAR
         a[n] := 7; y := a[3]; END_FUNCTION_BLOCK PROGRAM main VAR b : f; END_VAR b(); END_PROGRAM";
-    let mut plc = Plc::new_in(Profile::Codesys2, text);
-    plc.scan(0).unwrap();
-    assert_eq!(plc.get("main.b.y"), "7");
+    assert_eq!(values(Profile::Codesys2, text, ["b.y"]), ["7"]);
 }
 
 #[test]
@@ -214,26 +196,20 @@ fn l2_6_conversions_between_bits_and_numbers() {
     let body = "d := INT_TO_DWORD(INT#-1); r := DWORD_TO_REAL(16#3F800000); dr := REAL_TO_DWORD(1.0); b := BYTE_TO_BOOL(BYTE#2);";
     let text = format!("PROGRAM main VAR {vars} END_VAR {body} END_PROGRAM");
     for profile in Profile::ALL {
-        let mut plc = Plc::new_in(profile, &text);
-        plc.scan(0).unwrap();
         let want = match profile {
             Profile::Std => ["65535", "1.0", "1065353216", "FALSE"],
             _ => ["4294967295", "1065353200.0", "1", "TRUE"],
         };
-        assert_eq!(["d", "r", "dr", "b"].map(|v| plc.get(&format!("main.{v}"))), want, "{profile:?}");
+        assert_eq!(values(profile, &text, ["d", "r", "dr", "b"]), want, "{profile:?}");
     }
     let other_width = "PROGRAM main VAR w : WORD := 16#9C40; r : REAL; END_VAR r := WORD_TO_REAL(w); END_PROGRAM";
     assert_eq!(codes(Profile::Std, other_width), [(Code::TypeMismatch, Severity::Error)]);
-    let mut plc = Plc::new_in(Profile::Codesys2, other_width);
-    plc.scan(0).unwrap();
-    assert_eq!(plc.get("main.r"), "40000.0");
+    assert_eq!(values(Profile::Codesys2, other_width, ["r"]), ["40000.0"]);
 }
 
 #[test]
 fn s2_11_integers_have_bits_in_codesys() {
     let text = "PROGRAM main VAR i : INT := 5; x : BOOL; END_VAR x := i.2; i.0 := FALSE; i.15 := TRUE; END_PROGRAM";
     assert!(codes(Profile::Std, text).iter().all(|c| c.0 == Code::BadOperand));
-    let mut plc = Plc::new_in(Profile::Codesys, text);
-    plc.scan(0).unwrap();
-    assert_eq!(["x", "i"].map(|v| plc.get(&format!("main.{v}"))), ["TRUE", "-32764"]);
+    assert_eq!(values(Profile::Codesys, text, ["x", "i"]), ["TRUE", "-32764"]);
 }

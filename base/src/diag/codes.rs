@@ -100,8 +100,8 @@ codes! {
     P3011 AddressMismatch "the type does not fit the direct address";
     P3012 ResultNeverAssigned "the function never assigns its result" Warning;
     P3013 WriteToInputImage "the input image can't be written";
-    P3015 ReferenceKept "a reference can't be retained or located";
     P3014 RetainNotKept "retained values are not kept over a restart by this version" Warning;
+    P3015 ReferenceKept "a reference can't be retained or located";
 
     // --- P4 tasks and configuration ---
     P4001 UnknownTask "no task has this name";
