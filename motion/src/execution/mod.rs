@@ -87,6 +87,8 @@ pub struct PathExecutor {
     pub feed_mm: f64,
     /// Blocks of the part program that were begun.
     pub blocks: u32,
+    /// Ticks in which the path braked or stood because the background had fallen behind.
+    pub late_ticks: u32,
     last: Mark,
 }
 
@@ -111,6 +113,7 @@ impl PathExecutor {
             history_next: 0,
             feed_mm: 0.0,
             blocks: 0,
+            late_ticks: 0,
             last: Mark::default(),
         }
     }
@@ -194,10 +197,20 @@ impl PathExecutor {
     /// Moves on by `dt` seconds, or up to the next action that is not for the path.
     pub fn advance(&mut self, dt: f64, demand: &Demand) -> Reached {
         let starved = self.is_starved(dt);
+        let reached = self.walk(dt, demand, starved);
+        if let Some(c) = &self.current {
+            self.position = c.segment.path.at(c.s);
+        }
+        let waits = self.primed && self.queue.is_empty() && !demand.hold && matches!(reached, Reached::Nothing);
+        self.late_ticks = self.late_ticks.saturating_add(u32::from(starved || waits));
+        reached
+    }
+
+    fn walk(&mut self, dt: f64, demand: &Demand, starved: bool) -> Reached {
         let mut left = dt;
         for _ in 0..4 * QUEUE {
             if left <= 0.0 {
-                return self.stand(Reached::Time);
+                return Reached::Time;
             }
             if self.dwell_s > 0.0 {
                 left = self.dwell(left, demand.hold);
@@ -207,19 +220,12 @@ impl PathExecutor {
             } else {
                 match self.next(demand) {
                     Next::Started => {}
-                    Next::Nothing => return self.stand(Reached::Nothing),
-                    Next::Other(step) => return self.stand(Reached::Action(step, left)),
+                    Next::Nothing => return Reached::Nothing,
+                    Next::Other(step) => return Reached::Action(step, left),
                 }
             }
         }
-        self.stand(Reached::Time)
-    }
-
-    fn stand(&mut self, reached: Reached) -> Reached {
-        if let Some(c) = &self.current {
-            self.position = c.segment.path.at(c.s);
-        }
-        reached
+        Reached::Time
     }
 
     /// True if what is queued could be too short to stop in: the background has fallen behind.

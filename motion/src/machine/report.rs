@@ -47,6 +47,8 @@ pub struct ChannelReport {
     pub blocks: u32,
     /// Feed path length of the last run in mm.
     pub feed_mm: f64,
+    /// Ticks of the last run in which the path braked or stood because the background had fallen behind; 0 in virtual time.
+    pub late_ticks: u32,
     /// Line in execution; 0: none.
     pub line: u32,
     /// Programs that ran to their end.
@@ -115,6 +117,7 @@ fn channel(c: &crate::channel::Channel) -> ChannelReport {
         state: c.state(),
         blocks: c.executor().blocks,
         feed_mm: c.feed_mm(),
+        late_ticks: c.executor().late_ticks,
         line: c.mark().line,
         part_count: c.part_count(),
         error,
