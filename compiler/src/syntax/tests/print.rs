@@ -162,6 +162,9 @@ fn stmt(s: &Stmt) -> String {
         StmtKind::Exit => "exit".into(),
         StmtKind::Continue => "continue".into(),
         StmtKind::Return => "return".into(),
+        StmtKind::Label(name) => format!("{}:", name.text),
+        StmtKind::Jump(name) => format!("jmp {}", name.text),
+        StmtKind::Instructions(lines) => format!("(il {})", lines.len()),
         StmtKind::Empty => ";".into(),
         StmtKind::Error => "?".into(),
     }
