@@ -221,6 +221,7 @@ fn mistakes_have_one_message_each() {
     assert_eq!(codes("a : BOOL;", "LD a / JMPC nowhere / ST a"), ["P5005 2"]);
     assert_eq!(codes("a : BOOL;", "x: / LD a / x: / LD a / ST a"), ["P5006 3"]);
     assert_eq!(codes("a : BOOL;", "LD a / AND( a / JMP x / ) / ST a / x:"), ["P5007 3"]);
+    assert_eq!(codes("a : BOOL;", "LD a / AND( a / x: / OR a / x: OR a / ) / ST a"), ["P5007 3", "P5007 5"]);
     assert_eq!(codes("a : BOOL; n : INT;", "LD a / CU n"), ["P5008 2"]);
     assert_eq!(codes("a : BOOL; n : INT;", "LD a / ADD n / ST a / LD n / AND a / LD q"), ["P2002 2", "P2002 5", "P1003 6"]);
     assert_eq!(codes("n : INT;", "LD n / JMPC x / x:"), ["P2006 2"]);

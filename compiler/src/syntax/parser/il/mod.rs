@@ -150,6 +150,7 @@ impl Parser<'_> {
                 true => diag.help("a body is in Instruction List or in ST, not in both"),
                 false => diag,
             });
+            self.bump();
             return InstrKind::Error;
         }
         let token = self.bump();
@@ -261,8 +262,9 @@ impl Parser<'_> {
             }
             let before = self.pos;
             if self.at(Tok::Word) && self.nth(1).kind == Tok::Colon && self.nth(2).kind != Tok::Eq {
-                let name = Name { text: String::new(), span: self.here() };
+                let name = self.name();
                 self.not_inside(&name);
+                self.bump();
                 self.skip_line();
                 continue;
             }
