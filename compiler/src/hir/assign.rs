@@ -21,7 +21,7 @@ impl Builder<'_> {
         self.check_write(&target, e.span).then_some(target.place)
     }
 
-    fn check_write(&mut self, target: &Target, span: Span) -> bool {
+    pub(super) fn check_write(&mut self, target: &Target, span: Span) -> bool {
         let diag = match target.access {
             Access::Write => return self.check_control(&target.place, span),
             Access::Constant(at) => Diag::new(Code::AssignToConstant, span, "a constant").also(at, "declared CONSTANT"),

@@ -6,7 +6,7 @@ use super::constant;
 use super::lattice::{self, Fit};
 use super::model::*;
 use takt_base::{Code, Diag, Severity, Span};
-use takt_image::types::Type;
+use takt_image::types::{PointerKind, Type};
 use takt_image::{Elementary, TypeId};
 use takt_stdlib::ConversionType;
 
@@ -226,6 +226,7 @@ impl Builder<'_> {
         match self.ty(ty) {
             Type::Elementary(e) => Some(*e),
             Type::Enum { base, .. } if self.named_values.contains(&ty) => Some(*base),
+            Type::Pointer { kind: PointerKind::Pointer, .. } => Some(Elementary::Udint),
             _ => None,
         }
     }
@@ -267,6 +268,9 @@ impl Builder<'_> {
     fn widen(&mut self, o: Operand, to: TypeId) -> Result<Expr, Misfit> {
         if o.expr.ty == to {
             return Ok(o.expr);
+        }
+        if self.pointee(o.expr.ty).is_some() || self.pointee(to).is_some() {
+            return self.convert_pointer(&o.expr, to).ok_or(Misfit::Type);
         }
         if let Some(e) = self.widen_text(&o.expr, to)? {
             return Ok(e);

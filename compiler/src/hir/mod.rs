@@ -21,6 +21,8 @@ mod label;
 mod lattice;
 pub mod model;
 mod place;
+mod pointer;
+mod reference;
 mod scope;
 mod stmt;
 mod symbols;

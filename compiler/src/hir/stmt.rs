@@ -30,6 +30,8 @@ impl Builder<'_> {
     fn statement(&mut self, s: &ast::Stmt) -> Option<Stmt> {
         let kind = match &s.kind {
             ast::StmtKind::Assign { target, value } => self.assign(target, value)?,
+            ast::StmtKind::Attempt { target, value } => self.attempt(target, value)?,
+            ast::StmtKind::Bind { target, value } => self.bind(target, value, s.span)?,
             ast::StmtKind::Call(e) => self.call_statement(e)?,
             ast::StmtKind::If { branches, otherwise } => {
                 let branches = branches.iter().map(|(c, body)| (self.condition(c), self.statements(body))).collect();

@@ -8,7 +8,7 @@ use crate::syntax::ast;
 use std::collections::{HashMap, HashSet};
 use takt_base::index::IndexVec;
 use takt_base::{Code, Diag, Severity, SourceId, Span};
-use takt_image::Elementary;
+use takt_image::{Elementary, TypeId};
 
 /// How far a declaration has got.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -23,6 +23,8 @@ pub(super) struct TypeEntry<'a> {
     pub decl: &'a ast::TypeDecl,
     pub state: State,
     pub result: Option<TypeUse>,
+    /// Id of a structure that is referred to before it is resolved.
+    pub reserved: Option<TypeId>,
 }
 
 /// A declared unit.
@@ -30,6 +32,8 @@ pub(super) struct PouEntry<'a> {
     pub decl: &'a ast::Pou,
     pub library: bool,
     pub state: State,
+    /// Id of an instance that is referred to before it is resolved.
+    pub reserved: Option<TypeId>,
     /// Names of the unit, between declaration and body.
     pub scope: Scope,
 }
@@ -118,7 +122,7 @@ impl<'a> Builder<'a> {
 
     fn collect_type(&mut self, decl: &'a ast::TypeDecl) {
         let index = self.symbols.types.len();
-        self.symbols.types.push(TypeEntry { decl, state: State::Pending, result: None });
+        self.symbols.types.push(TypeEntry { decl, state: State::Pending, result: None, reserved: None });
         if self.unit_name(&decl.name, Unit::Type(index))
             && let ast::TypeBody::Enum(e) = &decl.body
         {
@@ -134,7 +138,8 @@ impl<'a> Builder<'a> {
             ast::PouKind::FunctionBlock => model::PouKind::FunctionBlock,
             ast::PouKind::Program => model::PouKind::Program,
         };
-        let id = self.symbols.pous.push(PouEntry { decl, library, state: State::Pending, scope: Scope::default() });
+        let id =
+            self.symbols.pous.push(PouEntry { decl, library, state: State::Pending, reserved: None, scope: Scope::default() });
         self.hir.pous.push(Pou {
             name: decl.name.text.clone(),
             kind,

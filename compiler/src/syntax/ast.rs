@@ -205,6 +205,11 @@ pub enum TypeRefKind {
         dims: Vec<(Expr, Expr)>,
         element: Box<TypeRef>,
     },
+    /// `REF_TO T`, `POINTER TO T`, `REFERENCE TO T`.
+    Pointer {
+        kind: takt_image::types::PointerKind,
+        target: Box<TypeRef>,
+    },
     /// Anonymous enumeration.
     Enum(EnumDecl),
     /// Anonymous structure (vendor).
@@ -298,6 +303,16 @@ pub enum StmtKind {
     /// `a S= b := value;` (vendor): the value goes to every target, the last one first.
     Chain {
         targets: Vec<(Expr, AssignOp)>,
+        value: Expr,
+    },
+    /// `target ?= value`.
+    Attempt {
+        target: Expr,
+        value: Expr,
+    },
+    /// `target REF= value` (vendor).
+    Bind {
+        target: Expr,
         value: Expr,
     },
     /// A call as a statement: the expression is always [`ExprKind::Call`].
@@ -402,6 +417,10 @@ pub enum ExprKind {
         callee: Box<Expr>,
         args: Vec<Arg>,
     },
+    /// `r^`.
+    Deref(Box<Expr>),
+    /// NULL.
+    Null,
     /// Something was wrong here and has been reported.
     Error,
 }

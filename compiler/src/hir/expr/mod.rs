@@ -33,6 +33,8 @@ impl Builder<'_> {
                 None => self.read(e),
             },
             ast::ExprKind::Direct(_) | ast::ExprKind::Index(..) | ast::ExprKind::Part { .. } => self.read(e),
+            ast::ExprKind::Deref(_) => self.read(e),
+            ast::ExprKind::Null => self.null(e.span, want),
             ast::ExprKind::Unary(op, a) => self.unary(*op, a, e.span, want),
             ast::ExprKind::Binary(op, a, b) => self.binary(*op, a, b, e.span, want),
             ast::ExprKind::Call { callee, args } => self.call(callee, args, e.span, want),

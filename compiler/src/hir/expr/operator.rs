@@ -25,7 +25,8 @@ impl Builder<'_> {
     /// `a op b` as written between its operands.
     pub(super) fn binary(&mut self, op: BinaryOp, l: &ast::Expr, r: &ast::Expr, span: Span, want: Option<TypeId>) -> Operand {
         let hint = if is_comparison(op) { None } else { want };
-        let (a, b) = if self.is_enumerator(l) && !self.is_enumerator(r) {
+        let waits = |b: &Self, e: &ast::Expr| b.is_enumerator(e) || matches!(e.kind, ast::ExprKind::Null);
+        let (a, b) = if waits(self, l) && !waits(self, r) {
             let b = self.operand(r, hint);
             (self.operand(l, Some(b.expr.ty)), b)
         } else {
@@ -45,6 +46,9 @@ impl Builder<'_> {
         }
         let same_enum = is_comparison(op) && a.expr.ty == b.expr.ty;
         let (a, b) = if same_enum { (a, b) } else { (self.decay(a), self.decay(b)) };
+        if let Some(o) = self.pointer_operator(op, &a, &b, span) {
+            return o;
+        }
         if op == BinaryOp::Power {
             return self.power(a, b, span, want);
         }
@@ -158,6 +162,7 @@ impl Builder<'_> {
         let Some(e) = self.elementary(ty) else {
             return match self.ty(ty) {
                 Type::String { .. } | Type::WString { .. } | Type::Subrange { .. } => is_comparison(op),
+                Type::Pointer { .. } => matches!(op, Eq | Ne),
                 Type::Enum { .. } if matches!(op, Eq | Ne) || !is_comparison(op) => is_comparison(op),
                 Type::Enum { .. } => {
                     if !self.named_values.contains(&ty) {
@@ -175,7 +180,7 @@ impl Builder<'_> {
             Add | Sub => number || e.is_real() || e.is_duration(),
             Mul | Div => number || e.is_real(),
             Mod => number,
-            And | Or | Xor => e.is_bit() || number && mixes,
+            And | Or | Xor => e.is_bit() || e.is_int() && mixes,
             AndThen | OrElse => e == Elementary::Bool,
             Eq | Ne | Lt | Gt | Le | Ge => true,
             Power => e.is_real(),

@@ -209,9 +209,9 @@ impl Parser<'_> {
                 Tok::LBracket => self.index(tree),
                 Tok::LParen if calls => self.call(tree),
                 Tok::Caret => {
-                    self.unsupported_here("dereferencing (^)");
                     self.bump();
-                    Tree::error(self.since(tree.expr.span))
+                    let span = self.since(tree.expr.span);
+                    self.grown(Expr { kind: ExprKind::Deref(Box::new(tree.expr)), span }, tree.height)
                 }
                 _ => break,
             };
@@ -343,10 +343,12 @@ impl Parser<'_> {
                 self.bump();
                 return Tree::leaf(Expr { kind: ExprKind::Literal(Literal::Bool(token.kw == Kw::True)), span });
             }
-            Kw::Null | Kw::Ref | Kw::This | Kw::Super if !self.is_used_as_name(token.kw) => {
+            Kw::Null if !self.is_used_as_name(token.kw) => {
+                self.bump();
+                ExprKind::Null
+            }
+            Kw::This | Kw::Super if !self.is_used_as_name(token.kw) => {
                 self.unsupported_here(match token.kw {
-                    Kw::Null => "a reference (NULL)",
-                    Kw::Ref => "a reference (REF)",
                     Kw::This => "object orientation (THIS)",
                     _ => "object orientation (SUPER)",
                 });
@@ -356,6 +358,9 @@ impl Parser<'_> {
             }
             kw if !kw.is_reserved() || self.is_used_as_name(kw) => ExprKind::Name(self.name()),
             kw if (is_function(kw) || kw.is_type()) && self.nth(1).kind == Tok::LParen => ExprKind::Name(self.bare_name()),
+            kw if kw.is_type() && self.prev().kind == Tok::LParen && self.nth(1).kind == Tok::RParen => {
+                ExprKind::Name(self.bare_name()) // SIZEOF(INT)
+            }
             _ => return self.no_operand(),
         };
         Tree::leaf(Expr { kind, span })
@@ -390,5 +395,5 @@ impl Parser<'_> {
 
 /// Keywords that are also functions: `AND(a, b)`.
 fn is_function(kw: Kw) -> bool {
-    matches!(kw, Kw::And | Kw::Or | Kw::Xor | Kw::Mod | Kw::Not)
+    matches!(kw, Kw::And | Kw::Or | Kw::Xor | Kw::Mod | Kw::Not | Kw::Ref)
 }

@@ -85,6 +85,7 @@ fn type_ref(t: &TypeRef) -> String {
         }
         TypeRefKind::Enum(e) => enumeration(e),
         TypeRefKind::Struct(members) => list(["struct".into(), all(members, var)]),
+        TypeRefKind::Pointer { kind, target } => list([kind.text().to_lowercase().replace(' ', "_"), type_ref(target)]),
         TypeRefKind::Error => "?".into(),
     }
 }
@@ -166,6 +167,8 @@ fn stmt(s: &Stmt) -> String {
         StmtKind::Jump(name) => format!("jmp {}", name.text),
         StmtKind::Instructions(lines) => format!("(il {})", lines.len()),
         StmtKind::Empty => ";".into(),
+        StmtKind::Attempt { target, value } => list(["?=".into(), expr(target), expr(value)]),
+        StmtKind::Bind { target, value } => list(["ref=".into(), expr(target), expr(value)]),
         StmtKind::Error => "?".into(),
     }
 }
@@ -195,6 +198,8 @@ pub(super) fn expr(e: &Expr) -> String {
         ExprKind::Index(base, items) => format!("{}[{}]", expr(base), all(items, expr)),
         ExprKind::Part { base, size, index } => format!("{}.%{}{index}", expr(base), letter(*size)),
         ExprKind::Call { callee, args } => list(["call".into(), expr(callee), all(args, arg)]),
+        ExprKind::Deref(e) => list(["^".into(), expr(e)]),
+        ExprKind::Null => "null".into(),
         ExprKind::Error => "?".into(),
     }
 }
