@@ -39,6 +39,12 @@ fn two_entries_into_one_loop() {
     run("odd : BOOL; n, m : LREAL;", body, &[("n", "5.0"), ("m", "10.0")]);
 }
 
+/// Names that are operators of Instruction List, in the vendors' forms of assignments.
+#[test]
+fn names_of_instructions() {
+    run("r, s : BOOL; x : BOOL := TRUE;", "r S= x; s S= r;", &[("r", "TRUE"), ("s", "TRUE")]);
+}
+
 #[test]
 fn mistakes() {
     assert_eq!(codes("JMP nowhere; n := 1;"), ["P5005"]);

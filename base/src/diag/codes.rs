@@ -1,7 +1,8 @@
 //! Every diagnostic and fault code, once. A code is for ever: never reused, never renumbered.
 //!
-//! P0 text, P1 names, P2 types, P3 program rules, P4 tasks and configuration; P5 Instruction List; N g-code; C project and image files; F runtime faults, whose number is
-//! the ErrorID word of a function block in hexadecimal. Each has a page in `docs/codes/`, which `takt explain` prints.
+//! P0 text, P1 names, P2 types, P3 program rules, P4 tasks and configuration, P5 Instruction List; N g-code; C project and image files;
+//! F runtime faults, whose number is the ErrorID word of a function block in hexadecimal. Each has a page in `docs/codes/`, which
+//! `takt explain` prints.
 
 use super::Severity;
 

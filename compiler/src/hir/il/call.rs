@@ -9,7 +9,7 @@ use crate::syntax::il::{Arg, Value, When};
 use takt_base::{Code, Diag, Span};
 use takt_image::types::Type;
 
-impl<'t> List<'_, '_, 't> {
+impl List<'_, '_> {
     /// True if the operand is an instance of a function block. What is reported here and again later is merged.
     pub(super) fn is_instance(&mut self, e: &ast::Expr) -> bool {
         let mut root = e;
@@ -41,7 +41,7 @@ impl<'t> List<'_, '_, 't> {
     }
 
     /// CAL.
-    pub(super) fn call_instance(&mut self, when: When, instance: &ast::Expr, args: &'t [Arg], span: Span) {
+    pub(super) fn call_instance(&mut self, when: When, instance: &ast::Expr, args: &[Arg], span: Span) {
         let condition = self.condition(when, span);
         let before = self.cr.clone();
         let outer = std::mem::take(&mut self.out);
@@ -74,7 +74,7 @@ impl<'t> List<'_, '_, 't> {
     }
 
     /// The arguments as ST has them.
-    fn args(&mut self, args: &'t [Arg], span: Span) -> Vec<ast::Arg> {
+    fn args(&mut self, args: &[Arg], span: Span) -> Vec<ast::Arg> {
         let mut list = Vec::with_capacity(args.len());
         for arg in args {
             list.push(match arg {
@@ -96,7 +96,7 @@ impl<'t> List<'_, '_, 't> {
     }
 
     /// A function by its name.
-    pub(super) fn function(&mut self, name: &Name, args: &'t [Arg], formal: bool, span: Span) {
+    pub(super) fn function(&mut self, name: &Name, args: &[Arg], formal: bool, span: Span) {
         let user = self.b.pou(name);
         if user.is_none() && takt_stdlib::lookup(&name.text).is_none() {
             self.unknown_instruction(name);

@@ -44,9 +44,9 @@ pub(super) enum Out {
     },
 }
 
-impl<'t> List<'_, '_, 't> {
+impl List<'_, '_> {
     /// Splits the lines at their labels.
-    pub(super) fn split(&mut self, lines: &'t [Line], span: Span) {
+    pub(super) fn split(&mut self, lines: &[Line], span: Span) {
         let block = |from, label, span| Block { lines: (from, from), label, span, entry: None, reached: false, out: Vec::new() };
         self.blocks.push(block(0, None, span));
         for (i, line) in lines.iter().enumerate() {
@@ -64,7 +64,7 @@ impl<'t> List<'_, '_, 't> {
     }
 
     /// Checks all blocks.
-    pub(super) fn blocks(&mut self, lines: &'t [Line]) {
+    pub(super) fn blocks(&mut self, lines: &[Line]) {
         self.todo.push(0);
         self.blocks[0].reached = true;
         while let Some(next) = self.todo.pop() {
@@ -77,7 +77,7 @@ impl<'t> List<'_, '_, 't> {
         }
     }
 
-    fn block(&mut self, index: usize, lines: &'t [Line], reached: bool) {
+    fn block(&mut self, index: usize, lines: &[Line], reached: bool) {
         let (from, to) = self.blocks[index].lines;
         self.open = reached;
         self.cr = if index > 0 && reached { Cr::Entry(index) } else { Cr::Undefined };

@@ -27,7 +27,7 @@ pub(super) enum Cr {
 }
 
 /// A body that is being checked.
-pub(super) struct List<'b, 'a, 't> {
+pub(super) struct List<'b, 'a> {
     b: &'b mut Builder<'a>,
     cr: Cr,
     /// The current instruction can be reached.
@@ -38,7 +38,6 @@ pub(super) struct List<'b, 'a, 't> {
     todo: Vec<usize>,
     labels: HashMap<String, (usize, LabelId)>,
     entries: Vec<Option<Place>>,
-    body: std::marker::PhantomData<&'t ()>,
 }
 
 impl Builder<'_> {
@@ -54,7 +53,6 @@ impl Builder<'_> {
             todo: Vec::new(),
             labels: HashMap::new(),
             entries: Vec::new(),
-            body: std::marker::PhantomData,
         };
         list.split(lines, span);
         list.blocks(lines);
@@ -62,9 +60,9 @@ impl Builder<'_> {
     }
 }
 
-impl<'t> List<'_, '_, 't> {
+impl List<'_, '_> {
     /// Checks an instruction.
-    fn instr(&mut self, instr: &'t Instr) {
+    fn instr(&mut self, instr: &Instr) {
         let span = instr.span;
         match &instr.kind {
             InstrKind::Simple { op, negated, operand } => self.simple(op, *negated, operand.as_ref(), span),
@@ -131,7 +129,7 @@ impl<'t> List<'_, '_, 't> {
         self.set(o, span);
     }
 
-    fn deferred(&mut self, op: &Op, negated: bool, list: &'t [Instr], span: Span) {
+    fn deferred(&mut self, op: &Op, negated: bool, list: &[Instr], span: Span) {
         let (Op::Binary(op), before) = (op, self.read(None, span)) else { return };
         let inner = self.nested(list, span);
         match (before, inner) {
@@ -141,7 +139,7 @@ impl<'t> List<'_, '_, 't> {
     }
 
     /// The result of instructions in parentheses, which begin without one.
-    fn nested(&mut self, list: &'t [Instr], span: Span) -> Option<Operand> {
+    fn nested(&mut self, list: &[Instr], span: Span) -> Option<Operand> {
         self.cr = Cr::Undefined;
         let done = self.b.depth_enter(span);
         if done {

@@ -51,6 +51,9 @@ impl Parser<'_> {
         let Some(word) = self.operator_at(n) else { return false };
         let alone = !self.is_same_line(n + 1);
         let next = self.nth(n + 1).kind;
+        if self.nth(n + 2).kind == Tok::Eq {
+            return false; // `r S= x` and `r REF= x` of ST
+        }
         match word {
             Word::Return(_) => alone || self.nth(n + 1).kind == Tok::Word,
             Word::Jump(_) => next == Tok::Word && !alone && self.nth(n + 2).kind != Tok::Semi,
