@@ -15,6 +15,47 @@ CASE i OF 1..3, 5: t(IN := NOT d.%X1, PT := T#1s5ms); ELSE b(c := t.Q, n := k); 
 a[2].s := CONCAT('x$'', MID(a[1].s, 1, 2)); WHILE k < 16#7F DO k := k + 1; END_WHILE END_PROGRAM
 CONFIGURATION c RESOURCE r ON plc TASK fast (INTERVAL := T#10ms, PRIORITY := 1); PROGRAM x WITH fast : p; END_RESOURCE END_CONFIGURATION";
 
+/// Instruction List.
+const IL: &str = "FUNCTION f : INT VAR_INPUT a : INT; b : INT; END_VAR
+LD a
+SUB( b
+MUL( 3
+ADD a
+)
+)
+ST f
+END_FUNCTION
+PROGRAM p VAR t : TON; c : CTU; q, r : BOOL; n : INT; END_VAR
+again: LDN q
+AND N ( r
+ORN %IX0.0
+)
+ST q
+JMPC over
+LD 1
+JMP both
+over: LD 2
+both: ST n
+f 5
+CAL t(IN := q, PT := T#1s, Q => r)
+LD q
+CALC t(
+ IN := ( LD q
+   AND r )
+ NOT Q => q
+)
+LD q
+CU c
+R c
+S r
+LD n
+ADD 1
+ST n
+LT 9
+JMPCN again
+RET
+END_PROGRAM";
+
 const NGC: &str = "%\nO100 (plate)\nN10 G90 G21 G17\nN20 G0 X10.5 Y-3 Z2\nG1 F200 Z-1\nG2 X20 Y0 I5 J3\nG81 R2 Z-5 X3\nG80\n#1=[2+3*SIN[30]]\nM3 S1000\nM30\n%\n";
 
 const WORDS: [&str; 24] = [
@@ -62,7 +103,8 @@ fn drive(runs: u64, texts: &[Vec<u8>], target: fn(&[u8])) {
 #[test]
 fn source_text() {
     let generated = (0..5).map(|seed| program(seed, Shape { statements: 2, scalars: 5, units: 1 }).into_bytes());
-    let texts: Vec<_> = std::iter::once(ST.as_bytes().to_vec()).chain(generated).collect();
+    let texts: Vec<_> = [ST, IL].map(|t| t.as_bytes().to_vec()).into_iter().chain(generated).collect();
+    assert!(compile_st(IL).diags.iter().all(|d| d.severity != Severity::Error), "{:?}", compile_st(IL).diags);
     assert!(compile_st(ST).diags.iter().all(|d| d.severity != Severity::Error), "{:?}", compile_st(ST).diags);
     drive(1500, &texts, fuzz::st);
 }

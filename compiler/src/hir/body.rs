@@ -61,6 +61,10 @@ pub(super) fn addresses<'t>(body: &'t [ast::Stmt], on: &mut dyn FnMut(&'t ast::A
                 exprs.push(e);
                 todo.extend(body);
             }
+            StmtKind::Instructions(lines) => {
+                exprs.extend(lines.iter().filter_map(|l| l.instr.as_ref()).flat_map(|i| i.expressions()))
+            }
+            StmtKind::Label(_) | StmtKind::Jump(_) => {}
             StmtKind::Exit | StmtKind::Continue | StmtKind::Return | StmtKind::Empty | StmtKind::Error => {}
         }
         expression_addresses(exprs, on);

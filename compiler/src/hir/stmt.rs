@@ -12,12 +12,17 @@ use takt_image::{Elementary, TypeId};
 impl Builder<'_> {
     /// A list of statements; what was wrong is left out.
     pub fn statements(&mut self, list: &[ast::Stmt]) -> Vec<Stmt> {
+        let labels = self.open_labels(list);
         let mut out = Vec::with_capacity(list.len());
         for s in list {
             match &s.kind {
+                ast::StmtKind::Instructions(lines) => out.append(&mut self.instructions(lines, s.span)),
                 ast::StmtKind::Chain { targets, value } => out.append(&mut self.chain(targets, value, s.span)),
                 _ => out.extend(self.deeper(s.span, |b| b.statement(s)).flatten()),
             }
+        }
+        if labels {
+            self.close_labels();
         }
         out
     }
@@ -47,7 +52,11 @@ impl Builder<'_> {
             ast::StmtKind::Exit => self.inside_loop(StmtKind::Exit, "EXIT", s.span)?,
             ast::StmtKind::Continue => self.inside_loop(StmtKind::Continue, "CONTINUE", s.span)?,
             ast::StmtKind::Return => StmtKind::Return,
-            ast::StmtKind::Chain { .. } | ast::StmtKind::Empty | ast::StmtKind::Error => return None,
+            ast::StmtKind::Label(name) => self.label_statement(name)?,
+            ast::StmtKind::Jump(name) => self.jump_statement(name)?,
+            ast::StmtKind::Instructions(_) | ast::StmtKind::Chain { .. } | ast::StmtKind::Empty | ast::StmtKind::Error => {
+                return None;
+            }
         };
         Some(Stmt { kind, span: s.span })
     }

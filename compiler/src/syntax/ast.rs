@@ -345,6 +345,12 @@ pub enum StmtKind {
     Exit,
     Continue,
     Return,
+    /// `name:` (vendor).
+    Label(Name),
+    /// `JMP name;` (vendor).
+    Jump(Name),
+    /// A body in Instruction List: the only statement of its list.
+    Instructions(Vec<super::il::Line>),
     /// A lone `;`.
     Empty,
     /// Something was wrong here and has been reported.
