@@ -12,7 +12,7 @@ fn s0_inputs_may_be_written_with_a_warning() {
     let text = "FUNCTION f : INT VAR_INPUT a : INT; END_VAR a := a + 1; f := a; END_FUNCTION
         PROGRAM main VAR x : INT := 4; y : INT; END_VAR y := f(x); END_PROGRAM";
     for profile in Profile::ALL {
-        let severity = if profile.is_codesys() { Severity::Warning } else { Severity::Error };
+        let severity = if profile.is_vendor() { Severity::Warning } else { Severity::Error };
         assert_eq!(codes(profile, text), [(Code::AssignToInput, severity)], "{profile:?}");
     }
     let mut plc = Plc::new_in(Profile::Codesys, text);
@@ -236,4 +236,15 @@ fn s2_11_integers_have_bits_in_codesys() {
     let mut plc = Plc::new_in(Profile::Codesys, text);
     plc.scan(0).unwrap();
     assert_eq!(["x", "i"].map(|v| plc.get(&format!("main.{v}"))), ["TRUE", "-32764"]);
+}
+
+#[test]
+fn s1_4_inline_c_of_matiec_matters_where_it_is_called() {
+    let unit =
+        "FUNCTION ticks : DINT VAR_INPUT x : DINT; END_VAR ticks := x; {extern long t; ticks = t;} END_FUNCTION (* a (* b *)";
+    let idle = format!("{unit} PROGRAM main VAR n : DINT; END_VAR n := 1; END_PROGRAM");
+    assert_eq!(codes(Profile::OpenPlc, &idle), [(Code::NotSupportedYet, Severity::Warning)]);
+    let calling = format!("{unit} PROGRAM main VAR n : DINT; END_VAR n := ticks(1); END_PROGRAM");
+    assert_eq!(codes(Profile::OpenPlc, &calling), [(Code::NotSupportedYet, Severity::Error)]);
+    assert_eq!(codes(Profile::Codesys2, &calling), [(Code::NotSupportedYet, Severity::Error)]);
 }

@@ -56,6 +56,8 @@ pub struct Pou {
     pub body: Vec<Stmt>,
     /// `{external}` stands before it: the body is a native.
     pub external: bool,
+    /// `{extern ..}` in its body: inline C of MATIEC.
+    pub inline_c: Option<Span>,
     /// From the first to the last keyword.
     pub span: Span,
 }
