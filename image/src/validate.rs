@@ -72,6 +72,10 @@ fn well_formed(table: &TypeTable, ty: &Type) -> Check {
         }
         Type::Struct(r) | Type::Instance(r) => r.fields.iter().try_for_each(|f| known(f.ty)),
         Type::Reference { target } | Type::Pointer { target, .. } => known(*target),
+        Type::Open { element, dims } => {
+            ensure((1..=16).contains(dims), || "the bounds of an array make no sense".into())?;
+            known(*element)
+        }
     }
 }
 
@@ -114,7 +118,9 @@ impl<'a> Walk<'a> {
                 Ok((below, dims.iter().fold(values, |n, d| n.saturating_mul(d.len() as u64))))
             }
             Type::Struct(r) | Type::Instance(r) if self.contents => self.record(r, depth),
-            Type::Reference { target } | Type::Pointer { target, .. } if !self.contents => self.visit(*target, depth + 1),
+            Type::Open { element: target, .. } | Type::Reference { target } | Type::Pointer { target, .. } if !self.contents => {
+                self.visit(*target, depth + 1)
+            }
             _ => Ok((0, 1)),
         }
     }

@@ -40,6 +40,9 @@ impl Builder<'_> {
         if ty == self.error {
             return self.bad(span);
         }
+        if self.open_parts(ty).is_some() {
+            return self.whole_open(span);
+        }
         if !matches!(self.ty(ty), Type::Array { .. } | Type::Struct(_) | Type::Instance(_))
             && let Some(c) = self.constant_at(&target.place)
         {
@@ -253,6 +256,10 @@ impl Builder<'_> {
             }
             target = self.through_references(target);
             let (step, ty, used) = match self.ty(target.place.ty) {
+                &Type::Open { element, dims } => {
+                    let any = Dim { low: i32::MIN, high: i32::MAX };
+                    (self.element(&vec![any; dims as usize], rest, e.span)?, element, dims as usize)
+                }
                 Type::Pointer { .. } => {
                     self.codesys_form(e.span, "an index behind a pointer");
                     let index = self.index(rest[0], i32::MIN.into(), i32::MAX.into())?;

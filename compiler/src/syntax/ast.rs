@@ -210,6 +210,11 @@ pub enum TypeRefKind {
         kind: takt_image::types::PointerKind,
         target: Box<TypeRef>,
     },
+    /// `ARRAY [*, *] OF T`.
+    OpenArray {
+        dims: usize,
+        element: Box<TypeRef>,
+    },
     /// Anonymous enumeration.
     Enum(EnumDecl),
     /// Anonymous structure (vendor).

@@ -10,7 +10,7 @@ use takt_image::TypeId;
 use takt_image::types::{Dim, Type};
 
 /// Most dimensions of an array.
-const DIMENSIONS_MAX: usize = 8;
+pub(super) const DIMENSIONS_MAX: usize = 8;
 
 impl Builder<'_> {
     /// `ARRAY [low..high, ..] OF element`.

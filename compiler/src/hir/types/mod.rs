@@ -2,6 +2,7 @@
 
 mod array;
 mod enumeration;
+mod open;
 pub(super) mod structure;
 
 use super::builder::Builder;
@@ -53,6 +54,7 @@ impl Builder<'_> {
                 self.structure(name, members, t.span, None)
             }
             ast::TypeRefKind::Pointer { kind, target } => self.pointer_type(*kind, target),
+            ast::TypeRefKind::OpenArray { .. } => self.misplaced_open(t.span),
             ast::TypeRefKind::Error => self.bad_type(),
         }
     }

@@ -56,7 +56,7 @@ impl Unit<'_, '_> {
     }
 
     /// True for a ULINT that was converted to LINT, where its upper half became negative.
-    fn is_ulint(&self, index: &Expr) -> bool {
+    pub fn is_ulint(&self, index: &Expr) -> bool {
         let ExprKind::Convert(Conversion::Integer, inner) = &index.kind else { return false };
         self.hir.elementary(inner.ty).is_some_and(|e| e.bytes() == 8 && !e.is_signed_storage())
     }

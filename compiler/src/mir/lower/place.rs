@@ -39,9 +39,16 @@ impl Unit<'_, '_> {
 
     /// The same, with the checks for what is done there: what a pointer leads to is checked when the place is known.
     pub fn place_for(&mut self, p: &Place, purpose: Purpose) -> Loc {
-        let (mut loc, mut ty) = self.base(p);
+        let mut path = p.path.as_slice();
+        let (mut loc, mut ty) = match (&p.base, path) {
+            (&Base::Var(v), [first, rest @ ..]) if matches!(self.homes[v], Home::Open(_)) => {
+                path = rest;
+                self.open_step(v, first, p.ty)
+            }
+            _ => self.base(p),
+        };
         let mut pointed = false;
-        for step in &p.path {
+        for step in path {
             match step {
                 Step::Deref => {
                     if pointed {
@@ -61,6 +68,18 @@ impl Unit<'_, '_> {
             (loc, ty) = self.step(loc, ty, step);
         }
         if pointed { self.checked(loc, ty, purpose) } else { loc }
+    }
+
+    /// An element, or a word of the descriptor, of an array of variable length.
+    fn open_step(&mut self, v: VarId, step: &Step, last: TypeId) -> (Loc, TypeId) {
+        let (Home::Open(array), Type::Open { element, .. }) = (self.homes[v], self.hir.types.get(self.var(v).ty)) else {
+            unreachable!("an array of variable length")
+        };
+        match step {
+            Step::Index(indices) => (Loc::Memory(self.open_element(array, *element, indices)), *element),
+            Step::Field(i) => (self.open_word(array, *i), last),
+            _ => unreachable!("it has elements and bounds"),
+        }
     }
 
     fn pointee(&self, ty: TypeId) -> TypeId {
@@ -94,6 +113,7 @@ impl Unit<'_, '_> {
             Home::Register(l) => Loc::Register(l),
             Home::Memory(a) => Loc::Memory(a),
             Home::Image(place) => image_loc(place),
+            Home::Open(_) => unreachable!("an array of variable length is not used as a whole"),
         }
     }
 

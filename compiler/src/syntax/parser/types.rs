@@ -199,13 +199,15 @@ impl Parser<'_> {
         if !self.expect(Tok::LBracket, "`[` and the bounds of the array") {
             return TypeRefKind::Error;
         }
-        let (mut dims, mut reported) = (Vec::new(), false);
+        let (mut dims, mut open) = (Vec::new(), 0);
         loop {
-            if self.at(Tok::Star) {
-                if !std::mem::replace(&mut reported, true) {
-                    self.unsupported_here("an array of variable length");
-                }
-                self.bump();
+            let mixed = if self.at(Tok::Star) { !dims.is_empty() } else { open > 0 };
+            if mixed {
+                let diag = Diag::new(Code::Expected, self.here(), "either all dimensions have bounds, or none");
+                self.soft(diag.message("bounds and * in one array"));
+            }
+            if self.eat(Tok::Star) {
+                open += 1;
             } else {
                 dims.push(self.range());
             }
@@ -218,7 +220,7 @@ impl Parser<'_> {
             return TypeRefKind::Error;
         }
         let element = Box::new(self.type_ref());
-        if dims.is_empty() { TypeRefKind::Error } else { TypeRefKind::Array { dims, element } }
+        if open > 0 { TypeRefKind::OpenArray { dims: open, element } } else { TypeRefKind::Array { dims, element } }
     }
 
     /// Takes a keyword or reports that it is missing.

@@ -60,7 +60,6 @@ fn sections_and_types() {
     lacks("UNION", "TYPE t : UNION a : REAL; b : DWORD; END_UNION; END_TYPE");
     lacks("UNION", "TYPE t : UNION a : REAL; b : DWORD; END_UNION END_TYPE");
     lacks("relative address", "TYPE t : STRUCT a AT %B2 : USINT; END_STRUCT; END_TYPE");
-    lacks("variable length", "FUNCTION f : INT VAR_IN_OUT a : ARRAY [*, *] OF INT; END_VAR END_FUNCTION");
     lacks("variable length", "FUNCTION f : INT VAR_IN_OUT a : STRING[*]; END_VAR END_FUNCTION");
     lacks("arguments", "PROGRAM p VAR x : fb(a := 1, b := 2); END_VAR END_PROGRAM");
     lacks("task of its own", "CONFIGURATION c TASK t(PRIORITY := 1); PROGRAM p : m(fb WITH t); END_CONFIGURATION");
