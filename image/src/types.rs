@@ -261,6 +261,16 @@ impl TypeTable {
         record
     }
 
+    /// True for a structure whose members share bytes (OVERLAP, UNION).
+    pub fn overlaps(&self, id: TypeId) -> bool {
+        let Type::Struct(r) = self.get(id) else { return false };
+        let mut ranges: Vec<_> =
+            r.fields.iter().map(|f| (f.offset, f.offset.saturating_add(self.layout(f.ty).size), f.ty)).collect();
+        ranges.sort();
+        let is_bits = |ty: TypeId| self.storage(ty) == Some(Elementary::Byte);
+        ranges.windows(2).any(|w| w[1].0 < w[0].1 && !(is_bits(w[0].2) && is_bits(w[1].2) && w[0].0 == w[1].0))
+    }
+
     /// How the user would write the type.
     pub fn display(&self, id: TypeId) -> String {
         match self.get(id) {

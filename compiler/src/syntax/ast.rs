@@ -100,6 +100,8 @@ pub struct VarDecl {
     pub names: Vec<Name>,
     /// AT.
     pub at: Option<Address>,
+    /// AT in a structure.
+    pub relative: Option<RelativeAddress>,
     /// Type.
     pub ty: TypeRef,
     /// R_EDGE or F_EDGE.
@@ -108,6 +110,28 @@ pub struct VarDecl {
     pub init: Option<Init>,
     /// All of it.
     pub span: Span,
+}
+
+/// `%B2`, `%X3.0`: a place in a structure.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RelativeAddress {
+    /// X or B.
+    pub size: AddressSize,
+    pub byte: u32,
+    /// 0 if left out.
+    pub bit: u32,
+    /// Where.
+    pub span: Span,
+}
+
+/// STRUCT with addresses, STRUCT OVERLAP or UNION.
+#[derive(Clone, Debug)]
+pub struct LayoutDecl {
+    pub members: Vec<VarDecl>,
+    /// Members may share bytes.
+    pub overlap: bool,
+    /// All members begin at 0.
+    pub union: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -217,6 +241,8 @@ pub enum TypeRefKind {
     },
     /// Anonymous enumeration.
     Enum(EnumDecl),
+    /// STRUCT with addresses, STRUCT OVERLAP or UNION.
+    Layout(LayoutDecl),
     /// Anonymous structure (vendor).
     Struct(Vec<VarDecl>),
     /// Something was wrong here and has been reported.

@@ -10,7 +10,12 @@ use takt_image::{Scalar, Trap, TypeId};
 impl Unit<'_, '_> {
     /// Address of `array[indices]`. Each subscript traps (Index) outside of its own dimension.
     pub fn element(&mut self, array: Addr, element: TypeId, dims: &[Dim], indices: &[Expr]) -> Addr {
-        let strides = strides(self.hir.types.layout(element).size, dims);
+        self.element_of_size(array, self.hir.types.layout(element).size, dims, indices)
+    }
+
+    /// The same for elements of `size` bytes.
+    pub fn element_of_size(&mut self, array: Addr, size: u32, dims: &[Dim], indices: &[Expr]) -> Addr {
+        let strides = strides(size, dims);
         let mut fixed = 0u32;
         let mut moving = None;
         for ((index, dim), stride) in indices.iter().zip(dims).zip(&strides) {
@@ -25,7 +30,7 @@ impl Unit<'_, '_> {
             }
         }
         let start = behind(array, fixed);
-        let size = dims.iter().fold(self.hir.types.layout(element).size, |size, d| size.saturating_mul(d.len()));
+        let size = dims.iter().fold(size, |size, d| size.saturating_mul(d.len()));
         moving.map_or(start, |bytes| self.moved(start, bytes, array, size))
     }
 

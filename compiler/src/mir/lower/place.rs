@@ -7,7 +7,7 @@ use super::unit::{Home, Unit};
 use crate::hir::model::*;
 use crate::mir::model::*;
 use takt_image::image::Place as ImagePlace;
-use takt_image::types::Field;
+use takt_image::types::{Dim, Field};
 use takt_image::{Scalar, Trap, Type, TypeId, TypeTable};
 
 /// Where a value is.
@@ -63,11 +63,24 @@ impl Unit<'_, '_> {
                     loc = self.checked(loc, ty, purpose);
                     pointed = false;
                 }
+                Step::Index(list) if matches!(self.shape(ty), Shape::Text { .. }) => {
+                    (loc, ty) = (self.text_unit(loc, ty, list), p.ty);
+                    continue;
+                }
                 _ => {}
             }
             (loc, ty) = self.step(loc, ty, step);
         }
         if pointed { self.checked(loc, ty, purpose) } else { loc }
+    }
+
+    /// A unit of a string by its number from 0, the zero behind the last included (vendor).
+    fn text_unit(&mut self, loc: Loc, ty: TypeId, index: &[Expr]) -> Loc {
+        let (Loc::Memory(addr), Shape::Text { capacity, unit }) = (loc, self.shape(ty)) else {
+            unreachable!("strings are in memory")
+        };
+        let dim = Dim { low: 0, high: i32::try_from(capacity).unwrap_or(i32::MAX) };
+        Loc::Memory(self.element_of_size(addr, unit, &[dim], index))
     }
 
     /// An element, or a word of the descriptor, of an array of variable length.
