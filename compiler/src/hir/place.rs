@@ -332,7 +332,9 @@ impl Builder<'_> {
         if base.place.ty == self.error {
             return None;
         }
-        let whole = self.elementary_or_base(base.place.ty).filter(|e| e.is_bit() && *e != Elementary::Bool);
+        let whole = self
+            .elementary_or_base(base.place.ty)
+            .filter(|e| *e != Elementary::Bool && (e.is_bit() || e.is_int() && self.profile(span).is_codesys()));
         let Some(whole) = whole.filter(|_| !ends_in_part(&base.place)) else {
             let help = "convert an integer to a bit string first, for example with INT_TO_WORD";
             let label = format!("{} has no bits to name", self.show(base.place.ty));
