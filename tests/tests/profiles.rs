@@ -146,3 +146,94 @@ fn s5_6_for_counts_in_any_place_of_codesys() {
     plc.scan(0).unwrap();
     assert_eq!(["s.i", "s.n", "k"].map(|v| plc.get(&format!("main.{v}"))), ["4", "506", "11"]);
 }
+
+#[test]
+fn s12_lists_without_brackets_and_the_prelude_of_codesys_2() {
+    let text = "TYPE CONSTANTS_MATH : STRUCT PI : REAL := 3.14; FACTS : ARRAY[0..3] OF DINT := 1,1,2,6; N : ARRAY[1..2, 1..3] OF INT := 2(7), 3(0), 5; END_STRUCT END_TYPE
+        FUNCTIONBLOCK f VAR a : ARRAY[1..4] OF INT := 1, 2(5), 9; END_VAR VAR_OUTPUT y : DINT; END_VAR y := a[3] + math.FACTS[3]; END_FUNCTION_BLOCK
+        PROGRAM main VAR b : f; s : STRING(STRING_LENGTH); r : REAL; n : INT; END_VAR b(); r := MATH.PI; n := MATH.N[2, 3] + MATH.N[1, 2] + LIST_LENGTH; END_PROGRAM";
+    let mut plc = Plc::new_in(Profile::Codesys2, text);
+    plc.scan(0).unwrap();
+    assert_eq!(["b.y", "r", "n"].map(|v| plc.get(&format!("main.{v}"))), ["11", "3.14", "262"]);
+    let own = text.replace("PROGRAM main", "VAR_GLOBAL MATH : CONSTANTS_MATH := (PI := 3.0); END_VAR PROGRAM main");
+    let mut plc = Plc::new_in(Profile::Codesys2, &own);
+    plc.scan(0).unwrap();
+    assert_eq!(plc.get("main.r"), "3.0");
+    assert!(!codes(Profile::Codesys, text).is_empty());
+}
+
+#[test]
+fn s12_bit_strings_count_and_take_signs_in_codesys() {
+    let text = "PROGRAM main VAR a : ARRAY[0..3] OF INT := [1, 2, 3, 4]; b : BYTE := 2; w : WORD := 1; n : BYTE := 1; i, j : INT; d : DINT; END_VAR
+        i := a[b]; w := SHL(w, b + 1); j := -b; d := i * 60000 + -n; END_PROGRAM";
+    let mut plc = Plc::new_in(Profile::Codesys2, text);
+    plc.scan(0).unwrap();
+    assert_eq!(["i", "w", "j", "d"].map(|v| plc.get(&format!("main.{v}"))), ["3", "8", "-2", "179999"]);
+}
+
+#[test]
+fn s1_1_a_character_of_a_latin_1_file_is_one_byte() {
+    let bytes = b"PROGRAM main VAR s : STRING(3) := 'a\xE4\x80'; n : INT; END_VAR n := LEN(s); END_PROGRAM".to_vec();
+    let mut plc = Plc::from_bytes(Profile::Codesys2, bytes);
+    plc.scan(0).unwrap();
+    assert_eq!((plc.get("main.n"), plc.get("main.s")), ("3".into(), "'aä$80'".into()));
+}
+
+#[test]
+fn s17_a_graphical_body_of_an_export_is_named_and_skipped() {
+    let text = "(* @NESTEDCOMMENTS := 'Yes' *)\nFUNCTION_BLOCK pump\nVAR x : INT; END_VAR\n(* @END_DECLARATION := '0' *)\n_FBD_BODY\n_NETWORKS : 1\n_NETWORK\n_COMMENT\n'it's $ broken\n_END_COMMENT\n_EXPRESSION\n_POSITIV\nEND_FUNCTION_BLOCK\nPROGRAM main VAR p : pump; END_VAR p(; END_PROGRAM";
+    let c = compile_in(Profile::Codesys2, text);
+    let found: Vec<_> = c.diags.iter().map(|d| (d.code, c.sources.line_col(d.span.source, d.span.start).line)).collect();
+    assert_eq!(found, [(Code::NotSupportedYet, 5), (Code::Expected, 14)]);
+    assert!(c.diags[0].message.contains("FBD"));
+}
+
+#[test]
+fn s1_4_conditional_compilation() {
+    let text = "{define fast}\nPROGRAM main VAR x : INT; END_VAR\n{IF defined(fast)} x := 1; {ELSE} x := := 2; {END_IF}\n{IF NOT defined(fast)} x := 3; {END_IF} END_PROGRAM";
+    assert!(codes(Profile::Std, text).iter().any(|c| c.0 == Code::NotSupportedYet));
+    let mut plc = Plc::new_in(Profile::Codesys, text);
+    plc.scan(0).unwrap();
+    assert_eq!(plc.get("main.x"), "1");
+    assert_eq!(codes(Profile::Codesys, "{IF defined(a)} PROGRAM p END_PROGRAM"), [(Code::Expected, Severity::Error)]);
+}
+
+#[test]
+fn s12_a_constant_may_be_declared_behind_its_use_in_a_bound() {
+    let text =
+        "FUNCTION_BLOCK f VAR a : ARRAY[0..n] OF INT; END_VAR VAR_OUTPUT y : INT; END_VAR VAR CONSTANT n : INT := 3; END_VAR
+        a[n] := 7; y := a[3]; END_FUNCTION_BLOCK PROGRAM main VAR b : f; END_VAR b(); END_PROGRAM";
+    let mut plc = Plc::new_in(Profile::Codesys2, text);
+    plc.scan(0).unwrap();
+    assert_eq!(plc.get("main.b.y"), "7");
+}
+
+#[test]
+fn l2_6_conversions_between_bits_and_numbers() {
+    let vars = "d, dr : DWORD; r : REAL; b : BOOL;";
+    let body = "d := INT_TO_DWORD(INT#-1); r := DWORD_TO_REAL(16#3F800000); dr := REAL_TO_DWORD(1.0); b := BYTE_TO_BOOL(2);";
+    let text = format!("PROGRAM main VAR {vars} END_VAR {body} END_PROGRAM");
+    for profile in Profile::ALL {
+        let mut plc = Plc::new_in(profile, &text);
+        plc.scan(0).unwrap();
+        let want = match profile {
+            Profile::Std => ["65535", "1.0", "1065353216", "FALSE"],
+            _ => ["4294967295", "1065353216.0", "1", "TRUE"],
+        };
+        assert_eq!(["d", "r", "dr", "b"].map(|v| plc.get(&format!("main.{v}"))), want, "{profile:?}");
+    }
+    let other_width = "PROGRAM main VAR w : WORD := 40000; r : REAL; END_VAR r := WORD_TO_REAL(w); END_PROGRAM";
+    assert_eq!(codes(Profile::Std, other_width), [(Code::TypeMismatch, Severity::Error)]);
+    let mut plc = Plc::new_in(Profile::Codesys2, other_width);
+    plc.scan(0).unwrap();
+    assert_eq!(plc.get("main.r"), "40000.0");
+}
+
+#[test]
+fn s2_11_integers_have_bits_in_codesys() {
+    let text = "PROGRAM main VAR i : INT := 5; x : BOOL; END_VAR x := i.2; i.0 := FALSE; i.15 := TRUE; END_PROGRAM";
+    assert!(codes(Profile::Std, text).iter().all(|c| c.0 == Code::BadOperand));
+    let mut plc = Plc::new_in(Profile::Codesys, text);
+    plc.scan(0).unwrap();
+    assert_eq!(["x", "i"].map(|v| plc.get(&format!("main.{v}"))), ["TRUE", "-32764"]);
+}

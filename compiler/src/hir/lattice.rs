@@ -7,6 +7,7 @@ use super::model::*;
 use crate::syntax::ast::BinaryOp;
 use takt_base::{Profile, Span};
 use takt_image::{Elementary as E, TypeId};
+use takt_stdlib::catalog::Intrinsic;
 
 /// How well a type stands where another is wanted.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -94,6 +95,10 @@ impl Builder<'_> {
             ExprKind::Const(c) => constant::int(c).is_some_and(|v| constant::checked(to, v).is_ok()),
             ExprKind::Convert(Conversion::Integer | Conversion::Subrange, a) | ExprKind::Neg(a) => self.is_made_of(a, to),
             ExprKind::Binary(op, a, b) if grows(*op) => self.is_made_of(a, to) && self.is_made_of(b, to),
+            ExprKind::Intrinsic(Intrinsic::Min | Intrinsic::Max | Intrinsic::Limit, args) => {
+                args.iter().all(|a| self.is_made_of(a, to))
+            }
+            ExprKind::Intrinsic(Intrinsic::Sel | Intrinsic::Mux, args) => args.iter().skip(1).all(|a| self.is_made_of(a, to)),
             _ => false,
         }
     }

@@ -156,7 +156,8 @@ impl Builder<'_> {
                 }
             },
         };
-        if !self.ensure_global(id) && !(self.place_only && self.hir.globals[id].ty != self.error) {
+        let known = self.ensure_global(id) || self.place_only && self.hir.globals[id].ty != self.error;
+        if !known {
             let label = format!("the value of `{}` depends on itself", n.text);
             self.error(Code::NotConstant, n.span, label);
             return None;

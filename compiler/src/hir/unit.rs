@@ -37,7 +37,10 @@ impl Builder<'_> {
         if decl.kind == ast::PouKind::Function {
             self.declare_result(id, decl);
         }
-        for section in &decl.sections {
+        // Constants first: bounds and lengths may use one that is declared further down.
+        let constant = |s: &&ast::VarSection| s.constant && matches!(s.kind, SectionKind::Var | SectionKind::External);
+        let sections = decl.sections.iter().filter(constant).chain(decl.sections.iter().filter(|s| !constant(s)));
+        for section in sections {
             self.check_section(decl, section);
             for d in &section.decls {
                 self.declare_vars(id, decl, section, d);

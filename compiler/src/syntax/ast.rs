@@ -2,6 +2,9 @@
 //! From: IEC 61131-3 edition 3, §6 and §7.3. Shared by all textual languages.
 #![allow(missing_docs)] // the names of fields and variants say it; what they do not say stands beside them
 
+mod operator;
+
+pub use operator::{BinaryOp, UnaryOp};
 use takt_base::Span;
 
 /// An identifier as written; compare with [`Name::is`].
@@ -490,59 +493,4 @@ pub enum Literal {
         ty: takt_image::Elementary,
         value: Box<Literal>,
     },
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum UnaryOp {
-    Neg,
-    Plus,
-    Not,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum BinaryOp {
-    Or,
-    Xor,
-    And,
-    Eq,
-    Ne,
-    Lt,
-    Gt,
-    Le,
-    Ge,
-    Add,
-    Sub,
-    Mul,
-    Div,
-    Mod,
-    Power,
-    /// AND_THEN, OR_ELSE (vendor): always short-circuit.
-    AndThen,
-    OrElse,
-}
-
-impl BinaryOp {
-    /// As the user writes it.
-    pub const fn text(self) -> &'static str {
-        use BinaryOp::*;
-        match self {
-            Or => "OR",
-            Xor => "XOR",
-            And => "AND",
-            Eq => "=",
-            Ne => "<>",
-            Lt => "<",
-            Gt => ">",
-            Le => "<=",
-            Ge => ">=",
-            Add => "+",
-            Sub => "-",
-            Mul => "*",
-            Div => "/",
-            Mod => "MOD",
-            Power => "**",
-            AndThen => "AND_THEN",
-            OrElse => "OR_ELSE",
-        }
-    }
 }

@@ -1,4 +1,4 @@
-//! Strings and their `$` escapes. A STRING holds the bytes of the text as written (UTF-8), a WSTRING UTF-16 units.
+//! Strings and their `$` escapes. A STRING holds the bytes of the text as written (UTF-8 or Latin-1), a WSTRING UTF-16 units.
 //! From: IEC 61131-3 §6.3.3 (language reference §1.6).
 
 use super::{Problem, Read};
@@ -30,6 +30,25 @@ impl Units for Vec<u16> {
     fn put_code(&mut self, code: u16) {
         self.push(code);
     }
+}
+
+/// Bytes of a text that was Latin-1.
+#[derive(Default)]
+struct Latin1(Vec<u8>);
+
+impl Units for Latin1 {
+    const HEX_DIGITS: usize = 2;
+    fn put(&mut self, c: char) {
+        self.0.push(u8::try_from(c).unwrap_or(b'?'));
+    }
+    fn put_code(&mut self, code: u16) {
+        self.0.push(code.to_le_bytes()[0]);
+    }
+}
+
+/// A token with its quotes of a file that was Latin-1, as STRING.
+pub(crate) fn latin1(token: &str) -> Read {
+    Ok(Literal::String(decode::<Latin1>(token)?.0).into())
 }
 
 /// A token with its quotes, as STRING.
