@@ -37,6 +37,8 @@ pub(super) struct Builder<'a> {
     pub place_only: bool,
     /// Values that the conversion in progress cuts: where, from what, to what.
     pub narrowings: Vec<(Span, TypeId, TypeId)>,
+    /// Members that are one bit of their byte, by structure and index: which bit.
+    pub bit_members: HashMap<(TypeId, u32), u32>,
     leaves: usize,
     depth: u32,
 }
@@ -61,6 +63,7 @@ impl<'a> Builder<'a> {
             calls: Vec::new(),
             place_only: false,
             narrowings: Vec::new(),
+            bit_members: HashMap::new(),
             leaves: 0,
             depth: 0,
         }

@@ -82,7 +82,7 @@ impl Builder<'_> {
         if section.kind == SectionKind::Global {
             return;
         }
-        let used = self.type_ref(&d.ty);
+        let used = self.declared_var_type(pou, section, &d.ty);
         self.check_decl(pou, section, d, used.ty);
         self.check_kept_reference(used.ty, section.retain == Some(true), d.at.is_some(), d.ty.span);
         let init = d.init.as_ref().map_or_else(|| used.default.clone(), |i| self.initial(i, &used));
