@@ -37,6 +37,10 @@ pub(super) struct Builder<'a> {
     pub place_only: bool,
     /// Values that the conversion in progress cuts: where, from what, to what.
     pub narrowings: Vec<(Span, TypeId, TypeId)>,
+    /// The next standard function has EN or ENO.
+    pub guards_next: bool,
+    /// A call with EN or ENO is being put together: it stays for the run time, where it tells its errors by ENO.
+    pub unfolded: bool,
     leaves: usize,
     depth: u32,
 }
@@ -61,6 +65,8 @@ impl<'a> Builder<'a> {
             calls: Vec::new(),
             place_only: false,
             narrowings: Vec::new(),
+            guards_next: false,
+            unfolded: false,
             leaves: 0,
             depth: 0,
         }
