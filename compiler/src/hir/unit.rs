@@ -113,7 +113,13 @@ impl Builder<'_> {
         if !self.declare_local(name, Local::Var(var)) {
             return;
         }
-        let init = if role == Role::InOut { Const::Zero } else { used.default.clone() };
+        let enables = matches!((role, d.init.is_none()), (Role::Input, true)) && name.is("EN") || role == Role::Output && d.init.is_none() && name.is("ENO");
+        let on = enables && self.elementary(used.ty) == Some(Elementary::Bool) && !self.profile(name.span).is_codesys();
+        let init = match role {
+            Role::InOut => Const::Zero,
+            _ if on => Const::Int(1),
+            _ => used.default.clone(),
+        };
         self.push_var(id, name, used.ty, role, Storage::Local, init);
         if matches!(role, Role::Input | Role::Output | Role::InOut) {
             self.hir.pous[id].params.push(var);

@@ -102,7 +102,7 @@ impl Builder<'_> {
             (ConversionType::Elementary(a), ConversionType::Elementary(b)) if truncate && a.is_real() && b.is_int() => {
                 self.intrinsic(Intrinsic::Trunc, vec![arg], ty, span).expr
             }
-            (ConversionType::Elementary(a), ConversionType::Elementary(b)) if loses(&arg, a, b) => {
+            (ConversionType::Elementary(a), ConversionType::Elementary(b)) if !self.unfolded && loses(&arg, a, b) => {
                 self.fold_error(FoldError::Overflow, span).expr
             }
             (ConversionType::Elementary(a), ConversionType::Elementary(b)) => {

@@ -70,6 +70,10 @@ impl Unit<'_, '_> {
                 Some(Value::Scalar(l)) => l,
                 _ => unreachable!("a function with a scalar result"),
             },
+            ExprKind::Guarded(g) => match self.guarded(g) {
+                Value::Scalar(l) => l,
+                _ => unreachable!("a call with a scalar result"),
+            },
             ExprKind::Intrinsic(i, args) => match self.intrinsic(*i, args, e.ty) {
                 Value::Scalar(l) => l,
                 _ => unreachable!("an intrinsic with a scalar result"),
@@ -195,6 +199,10 @@ impl Unit<'_, '_> {
             ExprKind::Const(c) => here(self.pooled(e.ty, c, e.span)),
             ExprKind::Load(p) => here(self.memory(p, Purpose::Read)),
             ExprKind::Convert(Conversion::String, a) => self.string_of(a, capacity, unit),
+            ExprKind::Guarded(g) => match self.guarded(g) {
+                Value::Text(t) => t,
+                _ => unreachable!("a call with a string result"),
+            },
             ExprKind::Intrinsic(i, args) => match self.intrinsic(*i, args, e.ty) {
                 Value::Text(t) => t,
                 _ => unreachable!("an intrinsic with a string result"),
@@ -259,6 +267,10 @@ impl Unit<'_, '_> {
             ExprKind::Const(c) => self.pooled(e.ty, c, e.span),
             ExprKind::Load(p) => self.memory(p, Purpose::Read),
             ExprKind::Convert(_, a) => self.bytes(a),
+            ExprKind::Guarded(g) => match self.guarded(g) {
+                Value::Bytes(a) => a,
+                _ => unreachable!("a call with an aggregate result"),
+            },
             ExprKind::Intrinsic(i, args) => match self.intrinsic(*i, args, e.ty) {
                 Value::Bytes(a) => a,
                 _ => unreachable!("an intrinsic with an aggregate result"),

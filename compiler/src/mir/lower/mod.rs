@@ -10,6 +10,7 @@ mod counted;
 mod data;
 mod expr;
 mod graph;
+mod guarded;
 mod index;
 mod init;
 mod interval;

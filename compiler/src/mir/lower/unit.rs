@@ -318,6 +318,11 @@ impl<'p, 'h> Unit<'p, 'h> {
     /// Locals, outputs and the result of a function start anew at each call, as VAR_TEMP does everywhere.
     fn initial_values(&mut self, pou: &'h Pou) {
         for (id, var) in pou.vars.enumerate() {
+            let block_eno = var.role == Role::Output && var.init == Const::Int(1) && var.name.eq_ignore_ascii_case("ENO");
+            if let (true, Storage::Field(_), Home::Memory(pin)) = (block_eno, var.storage, self.homes[id]) {
+                let on = self.f.int(Scalar::I8, 1);
+                self.f.store(pin, on);
+            }
             let given = matches!(var.role, Role::Input | Role::InOut);
             if var.storage != Storage::Local || given || self.is_open(var.ty) {
                 continue;
