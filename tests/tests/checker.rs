@@ -215,7 +215,7 @@ FUNCTION_BLOCK B VAR_INPUT a : INT; c : BOOL; END_VAR VAR_OUTPUT o : INT; END_VA
         (units, "n : INT;", "B(a := 1);", "P2012"),
         (units, "n : INT; b : ARRAY[0..1] OF B;", "b[n](a := 1);", ""),
         (units, "n : INT; b : B;", "b(a := TRUE);", "P2001"),
-        (units, "n : INT; b : B; x : BOOL;", "b(EN := x, a := 1);", "P0012"),
+        (units, "n : INT; b : B; x : BOOL;", "b(EN := x, a := 1);", ""),
         ("", "n : INT;", "n := unknown(1);", "P1003"),
         ("FUNCTION g : INT g := g(); END_FUNCTION", "n : INT;", "n := g();", "P3009"),
         ("FUNCTION g : INT END_FUNCTION", "n : INT;", "n := g();", "P3012"),

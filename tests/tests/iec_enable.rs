@@ -27,39 +27,47 @@ fn s18_9_div_with_en_and_eno() {
 
 #[test]
 fn s4_8_library_errors_clear_eno_and_give_the_stated_value() {
-    rows("INT", "z : INT; x : INT := -7; m : INT := -32768; one : INT := -1;", &[
-        ("DIV(IN1 := x, IN2 := z)", "0", "FALSE"),
-        ("DIV(IN1 := x, IN2 := 2)", "-3", "TRUE"),
-        ("DIV(IN1 := m, IN2 := one)", "-32768", "TRUE"),
-        ("DIV_INT(IN1 := x, IN2 := z)", "0", "FALSE"),
-        ("MOD(IN1 := x, IN2 := z)", "0", "FALSE"),
-        ("MOD(IN1 := x, IN2 := 3)", "-1", "TRUE"),
-        ("ADD(IN1 := x, IN2 := 3, IN3 := 1)", "-3", "TRUE"),
-        ("MUX(K := x, IN0 := 4, IN1 := 5)", "4", "FALSE"),
-        ("MUX(K := 1, IN0 := 4, IN1 := 5)", "5", "TRUE"),
-        ("MUX(K := 2, IN0 := 4, IN1 := 5)", "4", "FALSE"),
-        ("ABS(IN := x)", "7", "TRUE"),
-    ]);
+    rows(
+        "INT",
+        "z : INT; x : INT := -7; m : INT := -32768; one : INT := -1;",
+        &[
+            ("DIV(IN1 := x, IN2 := z)", "0", "FALSE"),
+            ("DIV(IN1 := x, IN2 := 2)", "-3", "TRUE"),
+            ("DIV(IN1 := m, IN2 := one)", "-32768", "TRUE"),
+            ("DIV_INT(IN1 := x, IN2 := z)", "0", "FALSE"),
+            ("MOD(IN1 := x, IN2 := z)", "0", "FALSE"),
+            ("MOD(IN1 := x, IN2 := 3)", "-1", "TRUE"),
+            ("ADD(IN1 := x, IN2 := 3, IN3 := 1)", "-3", "TRUE"),
+            ("MUX(K := x, IN0 := 4, IN1 := 5)", "4", "FALSE"),
+            ("MUX(K := 1, IN0 := 4, IN1 := 5)", "5", "TRUE"),
+            ("MUX(K := 2, IN0 := 4, IN1 := 5)", "4", "FALSE"),
+            ("ABS(IN := x)", "7", "TRUE"),
+        ],
+    );
 }
 
 #[test]
 fn s2_conversions_tell_what_does_not_fit() {
-    rows("INT", "", &[
-        ("DINT_TO_INT(IN := 70000)", "4464", "FALSE"),
-        ("DINT_TO_INT(IN := -70)", "-70", "TRUE"),
-        ("REAL_TO_INT(IN := 2.5)", "2", "TRUE"),
-        ("REAL_TO_INT(IN := 32767.4)", "32767", "TRUE"),
-        ("REAL_TO_INT(IN := 40000.0)", "32767", "FALSE"),
-        ("REAL_TO_INT(IN := -40000.0)", "-32768", "FALSE"),
-        ("TRUNC_INT(IN := REAL#-1.6)", "-1", "TRUE"),
-        ("REAL_TRUNC_INT(IN := 1.0E9)", "32767", "FALSE"),
-        ("ULINT_TO_INT(IN := 18446744073709551615)", "-1", "FALSE"),
-        ("STRING_TO_INT(IN := '12x')", "0", "FALSE"),
-        ("STRING_TO_INT(IN := ' 12')", "12", "TRUE"),
-        ("STRING_TO_INT(IN := '70000')", "32767", "FALSE"),
-        ("WORD_BCD_TO_INT(IN := 16#12)", "12", "TRUE"),
-        ("WORD_BCD_TO_INT(IN := 16#1F)", "0", "FALSE"),
-    ]);
+    rows(
+        "INT",
+        "",
+        &[
+            ("DINT_TO_INT(IN := 70000)", "4464", "FALSE"),
+            ("DINT_TO_INT(IN := -70)", "-70", "TRUE"),
+            ("REAL_TO_INT(IN := 2.5)", "2", "TRUE"),
+            ("REAL_TO_INT(IN := 32767.4)", "32767", "TRUE"),
+            ("REAL_TO_INT(IN := 40000.0)", "32767", "FALSE"),
+            ("REAL_TO_INT(IN := -40000.0)", "-32768", "FALSE"),
+            ("TRUNC_INT(IN := REAL#-1.6)", "-1", "TRUE"),
+            ("REAL_TRUNC_INT(IN := 1.0E9)", "32767", "FALSE"),
+            ("ULINT_TO_INT(IN := 18446744073709551615)", "-1", "FALSE"),
+            ("STRING_TO_INT(IN := '12x')", "0", "FALSE"),
+            ("STRING_TO_INT(IN := ' 12')", "12", "TRUE"),
+            ("STRING_TO_INT(IN := '70000')", "32767", "FALSE"),
+            ("WORD_BCD_TO_INT(IN := 16#12)", "12", "TRUE"),
+            ("WORD_BCD_TO_INT(IN := 16#1F)", "0", "FALSE"),
+        ],
+    );
     rows("UDINT", "", &[("INT_TO_UDINT(IN := -1)", "4294967295", "FALSE"), ("INT_TO_UDINT(IN := 1)", "1", "TRUE")]);
     rows("SINT", "", &[("UINT_TO_SINT(IN := 200)", "-56", "FALSE"), ("UINT_TO_SINT(IN := 100)", "100", "TRUE")]);
     rows("LINT", "", &[("ULINT_TO_LINT(IN := 9223372036854775808)", "-9223372036854775808", "FALSE")]);
@@ -91,48 +99,66 @@ fn s3_numeric_functions_tell_what_is_no_number() {
 
 #[test]
 fn s7_string_functions_tell_wrong_positions() {
-    rows("STRING", "n : INT := -1;", &[
-        ("LEFT(IN := 'ABC', L := n)", "''", "FALSE"),
-        ("LEFT(IN := 'ABC', L := 9)", "'ABC'", "TRUE"),
-        ("MID(IN := 'ABC', L := 5, P := 2)", "'BC'", "TRUE"),
-        ("MID(IN := 'ABC', L := 5, P := 0)", "''", "FALSE"),
-        ("INSERT(IN1 := 'ABC', IN2 := 'X', P := 0)", "'XABC'", "TRUE"),
-        ("INSERT(IN1 := 'ABC', IN2 := 'X', P := n)", "'ABC'", "FALSE"),
-        ("DELETE(IN := 'ABC', L := 9, P := 2)", "'A'", "TRUE"),
-        ("DELETE(IN := 'ABC', L := 9, P := 0)", "'ABC'", "FALSE"),
-        ("REPLACE(IN1 := 'ABC', IN2 := 'WXYZ', L := 1, P := 5)", "'ABC'", "FALSE"),
-        ("CONCAT(IN1 := 'A', IN2 := 'B', IN3 := 'C')", "'ABC'", "TRUE"),
-    ]);
+    rows(
+        "STRING",
+        "n : INT := -1;",
+        &[
+            ("LEFT(IN := 'ABC', L := n)", "''", "FALSE"),
+            ("LEFT(IN := 'ABC', L := 9)", "'ABC'", "TRUE"),
+            ("MID(IN := 'ABC', L := 5, P := 2)", "'BC'", "TRUE"),
+            ("MID(IN := 'ABC', L := 5, P := 0)", "''", "FALSE"),
+            ("INSERT(IN1 := 'ABC', IN2 := 'X', P := 0)", "'XABC'", "TRUE"),
+            ("INSERT(IN1 := 'ABC', IN2 := 'X', P := n)", "'ABC'", "FALSE"),
+            ("DELETE(IN := 'ABC', L := 9, P := 2)", "'A'", "TRUE"),
+            ("DELETE(IN := 'ABC', L := 9, P := 0)", "'ABC'", "FALSE"),
+            ("REPLACE(IN1 := 'ABC', IN2 := 'WXYZ', L := 1, P := 5)", "'ABC'", "FALSE"),
+            ("CONCAT(IN1 := 'A', IN2 := 'B', IN3 := 'C')", "'ABC'", "TRUE"),
+        ],
+    );
 }
 
 #[test]
 fn s8_times_and_dates_tell_what_is_none() {
-    rows("TOD", "", &[
-        ("ADD(IN1 := TOD#23:59:59, IN2 := T#2s)", "TOD#00:00:01", "FALSE"),
-        ("ADD_TOD_TIME(IN1 := TOD#23:59:57, IN2 := T#2s)", "TOD#23:59:59", "TRUE"),
-        ("SUB_TOD_TIME(IN1 := TOD#00:00:01, IN2 := T#2s)", "TOD#23:59:59", "FALSE"),
-        ("CONCAT_TOD(HOUR := 24, MINUTE := 0, SECOND := 0, MILLISECOND := 0)", "TOD#00:00:00", "FALSE"),
-    ]);
-    rows("DATE", "", &[
-        ("CONCAT_DATE(YEAR := 2023, MONTH := 2, DAY := 29)", "D#1970-01-01", "FALSE"),
-        ("CONCAT_DATE(YEAR := 2024, MONTH := 2, DAY := 29)", "D#2024-02-29", "TRUE"),
-    ]);
-    rows("TIME", "z : INT;", &[
-        ("DIV_TIME(IN1 := T#1s, IN2 := z)", "T#0s", "FALSE"),
-        ("DIV(IN1 := T#1s, IN2 := 2)", "T#500ms", "TRUE"),
-    ]);
+    rows(
+        "TOD",
+        "",
+        &[
+            ("ADD(IN1 := TOD#23:59:59, IN2 := T#2s)", "TOD#00:00:01", "FALSE"),
+            ("ADD_TOD_TIME(IN1 := TOD#23:59:57, IN2 := T#2s)", "TOD#23:59:59", "TRUE"),
+            ("SUB_TOD_TIME(IN1 := TOD#00:00:01, IN2 := T#2s)", "TOD#23:59:59", "FALSE"),
+            ("CONCAT_TOD(HOUR := 24, MINUTE := 0, SECOND := 0, MILLISECOND := 0)", "TOD#00:00:00", "FALSE"),
+        ],
+    );
+    rows(
+        "DATE",
+        "",
+        &[
+            ("CONCAT_DATE(YEAR := 2023, MONTH := 2, DAY := 29)", "D#1970-01-01", "FALSE"),
+            ("CONCAT_DATE(YEAR := 2024, MONTH := 2, DAY := 29)", "D#2024-02-29", "TRUE"),
+        ],
+    );
+    rows(
+        "TIME",
+        "z : INT;",
+        &[("DIV_TIME(IN1 := T#1s, IN2 := z)", "T#0s", "FALSE"), ("DIV(IN1 := T#1s, IN2 := 2)", "T#500ms", "TRUE")],
+    );
 }
 
 #[test]
 fn s5_a_negative_count_leaves_the_input() {
-    rows("BYTE", "n : INT := -1; x : BYTE := 16#45;", &[
-        ("SHL(IN := x, N := n)", "69", "FALSE"),
-        ("SHL(IN := x, N := 2)", "20", "TRUE"),
-        ("ROL(IN := x, N := n)", "162", "TRUE"),
-    ]);
+    rows(
+        "BYTE",
+        "n : INT := -1; x : BYTE := 16#45;",
+        &[
+            ("SHL(IN := x, N := n)", "69", "FALSE"),
+            ("SHL(IN := x, N := 2)", "20", "TRUE"),
+            ("ROL(IN := x, N := n)", "162", "TRUE"),
+        ],
+    );
 }
 
-const SCALE: &str = "FUNCTION Scale : INT VAR_INPUT EN : BOOL := TRUE; a : INT; END_VAR VAR_OUTPUT ENO : BOOL; twice : INT; END_VAR
+const SCALE: &str =
+    "FUNCTION Scale : INT VAR_INPUT EN : BOOL := TRUE; a : INT; END_VAR VAR_OUTPUT ENO : BOOL; twice : INT; END_VAR
     Scale := a + 1; twice := 2 * a; IF a < 0 THEN ENO := FALSE; END_IF END_FUNCTION
     FUNCTION Plain : INT VAR_INPUT a : INT; END_VAR VAR_OUTPUT twice : INT; END_VAR Plain := a + 1; twice := 2 * a; END_FUNCTION";
 
@@ -143,8 +169,17 @@ fn s4_8_functions_with_and_without_declared_eno() {
         q := Scale(EN := FALSE, a := 4, ENO => ok3, twice => v); t := Plain(EN := r = 4, a := t, ENO => ok4);
         Plain(EN := FALSE, a := 1, twice => u, NOT ENO => no);";
     let expected = [
-        ("r", "4"), ("u", "6"), ("s", "5"), ("ok", "TRUE"), ("v", "8"), ("ok2", "FALSE"), ("q", "9"), ("ok3", "FALSE"),
-        ("t", "-2"), ("ok4", "TRUE"), ("no", "TRUE"),
+        ("r", "4"),
+        ("u", "6"),
+        ("s", "5"),
+        ("ok", "TRUE"),
+        ("v", "8"),
+        ("ok2", "FALSE"),
+        ("q", "9"),
+        ("ok3", "FALSE"),
+        ("t", "-2"),
+        ("ok4", "TRUE"),
+        ("no", "TRUE"),
     ];
     check_in(SCALE, vars, body, &expected);
 }
@@ -155,7 +190,12 @@ fn s4_8_calls_within_expressions() {
     let body = "x := 10 + DIV(IN1 := 6, IN2 := n, ENO => ok) * 2 + Plain(EN := FALSE, a := 5, ENO => ok2);
         t := CONCAT(LEFT(EN := FALSE, IN := 'abc', L := 2), 'x'); z := DIV(EN := n <> 3, IN1 := 1, IN2 := n - 3);
         s := MID(EN := ok2, IN := s, L := 1, P := 1); p := NOT DIV(IN1 := n, IN2 := 0, ENO => ok2) > 0 AND NOT ok2;";
-    check_in(SCALE, vars, body, &[("x", "14"), ("ok", "TRUE"), ("ok2", "FALSE"), ("t", "'x'"), ("z", "3"), ("s", "'old'"), ("p", "TRUE")]);
+    check_in(
+        SCALE,
+        vars,
+        body,
+        &[("x", "14"), ("ok", "TRUE"), ("ok2", "FALSE"), ("t", "'x'"), ("z", "3"), ("s", "'old'"), ("p", "TRUE")],
+    );
 }
 
 #[test]
@@ -178,16 +218,30 @@ fn s4_8_blocks() {
     let body = "f(EN := FALSE, a := 3, ENO => ok, q => i); f(EN := TRUE, a := 4, ENO => ok2); f(a := 1);
         g(1); g(EN := FALSE, a := 7, ENO => ok3, q => j); ok4 := g.ENO; g(EN := TRUE, a := 2); g(a := 0, ENO => ok5);
         h.EN := FALSE; h(a := 3);";
-    check_in(BLOCKS, vars, body, &[
-        ("f.q", "5"), ("i", "5"), ("ok", "FALSE"), ("ok2", "TRUE"), ("g.q", "3"), ("j", "5"), ("ok3", "FALSE"), ("ok4", "FALSE"),
-        ("ok5", "FALSE"), ("h.q", "0"), ("h.a", "0"),
-    ]);
+    check_in(
+        BLOCKS,
+        vars,
+        body,
+        &[
+            ("f.q", "5"),
+            ("i", "5"),
+            ("ok", "FALSE"),
+            ("ok2", "TRUE"),
+            ("g.q", "3"),
+            ("j", "5"),
+            ("ok3", "FALSE"),
+            ("ok4", "FALSE"),
+            ("ok5", "FALSE"),
+            ("h.q", "0"),
+            ("h.a", "0"),
+        ],
+    );
 }
 
 #[test]
 fn standard_blocks_take_en() {
-    let body = "c(EN := FALSE, CU := TRUE, PV := 1, ENO => ok); c(EN := TRUE, CU := TRUE, PV := 1, ENO => on);";
-    check("c : CTU; ok, on : BOOL;", body, &[("c.CV", "1"), ("ok", "FALSE"), ("on", "TRUE")]);
+    let body = "c(EN := FALSE, CU := TRUE, PV := 1, ENO => ok); c(EN := TRUE, CU := TRUE, PV := 1, ENO => run);";
+    check("c : CTU; ok, run : BOOL;", body, &[("c.CV", "1"), ("ok", "FALSE"), ("run", "TRUE")]);
 }
 
 #[test]

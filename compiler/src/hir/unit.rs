@@ -113,7 +113,8 @@ impl Builder<'_> {
         if !self.declare_local(name, Local::Var(var)) {
             return;
         }
-        let enables = matches!((role, d.init.is_none()), (Role::Input, true)) && name.is("EN") || role == Role::Output && d.init.is_none() && name.is("ENO");
+        let enables = matches!((role, d.init.is_none()), (Role::Input, true)) && name.is("EN")
+            || role == Role::Output && d.init.is_none() && name.is("ENO");
         let on = enables && self.elementary(used.ty) == Some(Elementary::Bool) && !self.profile(name.span).is_codesys();
         let init = match role {
             Role::InOut => Const::Zero,

@@ -1,7 +1,7 @@
 //! EN and ENO (language reference §4.8): every call takes `EN := condition` and `ENO => variable`, declared or not.
 //!
 //! A call whose EN is FALSE is as if it were within an IF: nothing of it is evaluated or assigned, ENO alone becomes FALSE. Units of
-//! the CODESYS profiles that declare EN or ENO keep them as ordinary parameters.
+//! the CODESYS profiles that declare EN or ENO keep them as ordinary parameters, and so do external ones.
 
 use crate::hir::builder::Builder;
 use crate::hir::convert::{Operand, constant_expr};
@@ -39,7 +39,7 @@ impl Builder<'_> {
             pou.params.iter().find(is).copied()
         };
         let (en, eno) = (find("EN", Role::Input), find("ENO", Role::Output));
-        let ordinary = (en.is_some() || eno.is_some()) && self.profile(pou.end).is_codesys();
+        let ordinary = (en.is_some() || eno.is_some()) && (pou.external || self.profile(pou.end).is_codesys());
         if ordinary { Declared { en: None, eno: None, ordinary } } else { Declared { en, eno, ordinary } }
     }
 

@@ -39,11 +39,8 @@ impl Builder<'_> {
     fn all_inputs_given(&mut self, id: PouId, given: &[Option<Given>], span: Span) -> bool {
         let pou = &self.hir.pous[id];
         let own = self.declared_enable(id).en;
-        let missing = pou
-            .params
-            .iter()
-            .zip(given)
-            .find(|(v, g)| pou.vars[**v].role == Role::Input && g.is_none() && own != Some(**v));
+        let missing =
+            pou.params.iter().zip(given).find(|(v, g)| pou.vars[**v].role == Role::Input && g.is_none() && own != Some(**v));
         let Some((var, _)) = missing else { return true };
         let label = format!("input `{}` is missing", pou.vars[*var].name);
         let help = "give all inputs in order, or name those that you give: `name := value`";

@@ -32,11 +32,6 @@ impl Builder<'_> {
         self.check_relative(d);
         self.check_address(pou, section, d);
         self.check_instance(pou, section, ty, d.ty.span);
-        let output = matches!(section.kind, SectionKind::Input | SectionKind::Output);
-        let library = self.in_library(d.span);
-        for name in d.names.iter().filter(|n| output && (n.is("EN") || n.is("ENO")) && !library) {
-            self.unsupported(name.span, "EN and ENO", "use another name and test it in the body");
-        }
         if let Some(init) = d.init.as_ref().filter(|_| section.kind == SectionKind::InOut) {
             self.error(Code::BadInitializer, init.span(), "a VAR_IN_OUT has no value of its own");
         }

@@ -180,7 +180,9 @@ impl Unit<'_, '_> {
     }
 
     fn checked_conversion(&mut self, how: Conversion, a: &Expr, e: &Expr) -> Checked {
-        let (Some(from), Some(to)) = (self.hir.elementary(a.ty), self.hir.elementary(e.ty)) else { return (self.operand(e), None) };
+        let (Some(from), Some(to)) = (self.hir.elementary(a.ty), self.hir.elementary(e.ty)) else {
+            return (self.operand(e), None);
+        };
         if how == Conversion::Subrange {
             return (self.operand(e), None);
         }
