@@ -1,7 +1,7 @@
 //! Calls of function block instances as statements (§4.2, §4.7): inputs that are not given keep their values.
 
 use super::builder::Builder;
-use super::call::Given;
+use super::call::{Enable, Given};
 use super::model::*;
 use super::place::Access;
 use super::scope::Local;
@@ -50,8 +50,17 @@ impl Builder<'_> {
             return None;
         }
         self.note_call(id, span);
-        let given = self.match_arguments(id, args, span)?;
-        self.block_arguments(target.place, id, given, span)
+        let declared = self.declared_enable(id);
+        let enable = self.enable(args, declared);
+        let rest = enable.as_ref().map_or(args, |e| &e.rest);
+        let given = self.match_arguments(id, rest, span)?;
+        let own = self.own_enable(&target.place, id, declared, span);
+        let call = self.block_arguments(target.place, id, given, span)?;
+        Some(match (enable, own) {
+            (None, None) => call,
+            (Some(e), own) => self.guarded_block(call, Enable { en: e.en.or(own), ..e }, declared, span),
+            (None, en) => self.guarded_block(call, Enable { en, eno: None, rest: Vec::new() }, declared, span),
+        })
     }
 
     /// The function block that the place is an instance of.

@@ -167,6 +167,7 @@ impl Builder<'_> {
     pub fn wrap(&mut self, how: Conversion, expr: Expr, to: TypeId) -> Expr {
         let span = expr.span;
         if let ExprKind::Const(c) = &expr.kind
+            && !self.unfolded
             && let Some(c) = self.fold_conversion(how, c, expr.ty, to)
         {
             return Expr { kind: ExprKind::Const(c), ty: to, span };

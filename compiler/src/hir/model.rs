@@ -277,12 +277,32 @@ pub enum ExprKind {
         args: Vec<Arg>,
     },
     Intrinsic(Intrinsic, Vec<Expr>),
+    /// A call with EN or ENO: library errors give their stated value instead of a fault. Not run, it is zero.
+    Guarded(Box<Guarded>),
     /// A library native by its full name; argument order as in the catalogue, scalars already converted. A string result has type
     /// `ty`, a STRING large enough.
     Native {
         name: String,
         args: Vec<Expr>,
     },
+}
+
+/// A call with EN or ENO (language reference §4.8).
+#[derive(Clone, Debug)]
+pub struct Guarded {
+    pub call: Expr,
+    /// Nothing of the call is evaluated if it is FALSE.
+    pub en: Option<Expr>,
+    pub eno: Option<Eno>,
+}
+
+/// Where ENO goes.
+#[derive(Clone, Debug)]
+pub struct Eno {
+    pub target: Place,
+    pub negated: bool,
+    /// The unit declares ENO: the call itself writes the target when it runs.
+    pub written: bool,
 }
 
 /// Conversions between scalar types; source and target storage are in the types.

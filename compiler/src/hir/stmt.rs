@@ -49,7 +49,7 @@ impl Builder<'_> {
             ast::StmtKind::Return => StmtKind::Return,
             ast::StmtKind::Chain { .. } | ast::StmtKind::Empty | ast::StmtKind::Error => return None,
         };
-        Some(Stmt { kind, span: s.span })
+        Some(Stmt { kind: self.hoist_enable(kind, s.span), span: s.span })
     }
 
     fn loop_body(&mut self, body: &[ast::Stmt]) -> Vec<Stmt> {

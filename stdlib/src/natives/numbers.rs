@@ -31,6 +31,10 @@ pub(super) fn time_to_int(call: &mut NativeCall, types: Types) -> Result<(), Tra
     let (ns, unit) = (call.i64(0), unit(from).unwrap_or(1));
     let number = if from.is_duration() { ns / unit } else { ns.div_euclid(unit) };
     call.result = extend(number as u64, to);
+    let kept = if to.is_signed_storage() { i128::from(call.result as i64) } else { i128::from(call.result) };
+    if to.is_int() && kept != i128::from(number) {
+        call.fail();
+    }
     Ok(())
 }
 
@@ -45,7 +49,11 @@ pub(super) fn int_to_time(call: &mut NativeCall, types: Types) -> Result<(), Tra
     let (from, to) = ends(types)?;
     let slot = extend(call.i64(0) as u64, from);
     let number = if from.is_signed_storage() { i128::from(slot as i64) } else { i128::from(slot) };
-    let ns = (number * i128::from(unit(to).unwrap_or(1))) as i64;
+    let exact = number * i128::from(unit(to).unwrap_or(1));
+    let ns = exact as i64;
+    if i128::from(ns) != exact {
+        call.fail();
+    }
     call.result = whole(ns, to) as u64;
     Ok(())
 }
@@ -53,7 +61,11 @@ pub(super) fn int_to_time(call: &mut NativeCall, types: Types) -> Result<(), Tra
 pub(super) fn real_to_time(call: &mut NativeCall, types: Types) -> Result<(), Trap> {
     let (from, to) = ends(types)?;
     let number = if from == E::Real { f64::from(call.f32(0)) } else { call.f64(0) };
-    let ns = libm::rint(number * unit(to).unwrap_or(1) as f64) as i64; // saturates, NaN gives 0
+    let nearest = libm::rint(number * unit(to).unwrap_or(1) as f64);
+    let ns = nearest as i64; // saturates, NaN gives 0
+    if !(nearest.abs() < 9.3e18 && ns as f64 == nearest) {
+        call.fail();
+    }
     call.result = whole(ns, to) as u64;
     Ok(())
 }

@@ -63,13 +63,18 @@ impl Builder<'_> {
     }
 
     fn positional(&mut self, id: PouId, position: usize, at: Span, call: Span) -> Option<usize> {
-        let count = self.hir.pous[id].params.len();
-        if position >= count {
+        let own = self.declared_enable(id);
+        let enables = |v: &VarId| own.en == Some(*v) || own.eno == Some(*v);
+        let params = &self.hir.pous[id].params;
+        let mut counted = params.iter().enumerate().filter(|(_, v)| !enables(v));
+        let slot = counted.nth(position).map(|(i, _)| i);
+        let count = params.iter().filter(|v| !enables(v)).count();
+        if slot.is_none() {
             let label = format!("`{}` has {count} parameters", self.hir.pous[id].name);
             self.report(Diag::new(Code::WrongArgumentCount, at, label).also(call, "the call"));
             return None;
         }
-        Some(position)
+        slot
     }
 
     /// Index of a parameter by its name; `output`: it is written with `=>`.
@@ -90,10 +95,6 @@ impl Builder<'_> {
     }
 
     fn no_parameter(&mut self, id: PouId, name: &ast::Name) {
-        if name.is("EN") || name.is("ENO") {
-            let help = "test the condition with IF around the call";
-            return self.unsupported(name.span, "EN and ENO", help);
-        }
         let pou = &self.hir.pous[id];
         let known = pou.params.iter().map(|v| pou.vars[*v].name.clone()).collect();
         self.unknown(Code::UnknownParameter, name, known);

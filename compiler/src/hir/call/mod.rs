@@ -3,11 +3,13 @@
 
 mod arguments;
 mod conversion;
+mod enable;
 mod fold;
 mod standard;
 mod user;
 
 pub(super) use arguments::Given;
+pub(super) use enable::Enable;
 
 use super::builder::Builder;
 use super::convert::Operand;
@@ -22,7 +24,7 @@ impl Builder<'_> {
     /// A call whose value is used.
     pub fn call(&mut self, callee: &ast::Expr, args: &[ast::Arg], span: Span, want: Option<TypeId>) -> Operand {
         let o = self.call_any(callee, args, span, want);
-        if let ExprKind::Call { pou, .. } = &o.expr.kind
+        if let ExprKind::Call { pou, .. } = plain(&o.expr)
             && self.hir.pous[*pou].result.is_none()
         {
             let label = format!("`{}` has no result", self.hir.pous[*pou].name);
@@ -48,11 +50,30 @@ impl Builder<'_> {
             return self.bad_call(args, span);
         }
         match self.pou(name) {
-            Some(id) => self.call_user(id, args, span),
+            Some(id) => self.call_with_enable(id, args, span),
             None => match takt_stdlib::lookup(&name.text) {
-                Some(found) => self.call_standard(found, name, args, span, want),
+                Some(found) => match self.enable(args, enable::Declared::default()) {
+                    None => self.call_standard(found, name, args, span, want),
+                    Some(enable) => {
+                        self.guards_next = true;
+                        let call = self.call_standard(found, name, &enable.rest, span, want);
+                        self.guarded(call, enable.en, enable.eno, enable::Declared::default())
+                    }
+                },
                 None => self.bad_call(args, span),
             },
+        }
+    }
+
+    fn call_with_enable(&mut self, id: PouId, args: &[ast::Arg], span: Span) -> Operand {
+        self.ensure_pou(id, span);
+        let declared = self.declared_enable(id);
+        match self.enable(args, declared) {
+            None => self.call_user(id, args, span),
+            Some(enable) => {
+                let call = self.call_user(id, &enable.rest, span);
+                self.guarded(call, enable.en, enable.eno, declared)
+            }
         }
     }
 
@@ -108,5 +129,13 @@ impl Builder<'_> {
     /// Remembers who calls whom.
     pub(super) fn note_call(&mut self, to: PouId, span: Span) {
         self.calls.push((self.scope.pou, to, span));
+    }
+}
+
+/// What is called, EN and ENO aside.
+fn plain(e: &Expr) -> &ExprKind {
+    match &e.kind {
+        ExprKind::Guarded(g) => &g.call.kind,
+        kind => kind,
     }
 }

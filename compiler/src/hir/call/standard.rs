@@ -27,10 +27,14 @@ impl Builder<'_> {
         span: Span,
         want: Option<TypeId>,
     ) -> Operand {
+        let guards = std::mem::take(&mut self.guards_next);
         let Some(exprs) = self.standard_arguments(found, name, args, span) else { return self.bad(span) };
         let hints: Vec<_> = (0..exprs.len()).map(|i| self.hint(found, i, want)).collect();
         let args: Vec<_> = exprs.into_iter().zip(hints).map(|(e, hint)| self.operand(e, hint)).collect();
-        self.apply(found, args, span, want)
+        self.unfolded = guards;
+        let call = self.apply(found, args, span, want);
+        self.unfolded = false;
+        call
     }
 
     /// What the parameter at a position wants, as far as the name says it.
@@ -98,9 +102,7 @@ impl Builder<'_> {
             }
         };
         if position.is_none() {
-            let eno = formal.is("EN") || formal.is("ENO");
             match found {
-                _ if eno => self.unsupported(formal.span, "EN and ENO", "test the condition with IF around the call"),
                 Found::Function { function, .. } => {
                     let known = function.params.iter().map(|p| p.name.to_owned()).collect();
                     self.unknown(Code::UnknownParameter, formal, known);
@@ -137,8 +139,12 @@ impl Builder<'_> {
             Lowering::Inline(i) if f.group().is_some() => operator_of(i, args.len()),
             _ => None,
         };
-        if let (Some(op), None) = (operator, fixed) {
+        let untyped = self.unfolded && args.iter().all(|a| a.flex != Flex::Fixed);
+        if let (Some(op), None, false) = (operator, fixed, untyped) {
             return self.apply_operator(op, args, span, want);
+        }
+        if let Some(shifted) = self.shift_of_integer(f, &args, span) {
+            return shifted;
         }
         let Some(args) = self.fit_parameters(f, fixed, args, span, want) else { return self.bad(span) };
         if let Some(op) = operator {
@@ -147,6 +153,26 @@ impl Builder<'_> {
         let common = f.params.iter().zip(&args).find(|(p, _)| matches!(p.ty, Pattern::T(_))).map(|(_, a)| a.ty);
         let ty = self.result_type(f, common, &args, want);
         self.finish(f, args, ty, span)
+    }
+
+    /// SHL, SHR, ROL and ROR of an integer (vendor): of its bits, and an integer again. `None` if it is no such case.
+    fn shift_of_integer(&mut self, f: &Function, args: &[Operand], span: Span) -> Option<Operand> {
+        let shifts = [Intrinsic::Shl, Intrinsic::Shr, Intrinsic::Rol, Intrinsic::Ror].map(Lowering::Inline);
+        let (first, rest) = args.split_first().filter(|_| shifts.contains(&f.lowering) && self.profile(span).is_codesys())?;
+        let first = self.decay(first.clone());
+        let value = self.settle(first);
+        let integer = self.elementary(value.ty).filter(|e| e.is_int())?;
+        let bits = match integer.bits() {
+            8 => Elementary::Byte,
+            16 => Elementary::Word,
+            32 => Elementary::Dword,
+            _ => Elementary::Lword,
+        };
+        let (to, back) = (self.elem(bits), value.ty);
+        let value = Operand::fixed(self.wrap(Conversion::Integer, value, to));
+        let args = std::iter::once(value).chain(rest.iter().cloned()).collect();
+        let shifted = self.apply_function(f, None, args, span, None);
+        Some(if self.is_bad(&shifted) { shifted } else { Operand::fixed(self.wrap(Conversion::Integer, shifted.expr, back)) })
     }
 
     /// ADD(a, b, c) is a + b + c.
@@ -346,7 +372,8 @@ impl Builder<'_> {
 
     /// A call of an inline function; of constants its value.
     pub fn intrinsic(&mut self, i: Intrinsic, args: Vec<Expr>, ty: TypeId, span: Span) -> Operand {
-        match self.fold_intrinsic(i, &args, ty) {
+        let folded = if self.unfolded { None } else { self.fold_intrinsic(i, &args, ty) };
+        match folded {
             Some(Ok(c)) => Operand::fixed(constant_expr(c, ty, span)),
             Some(Err(why)) => self.fold_error(why, span),
             None => Operand::fixed(Expr { kind: ExprKind::Intrinsic(i, args), ty, span }),
@@ -355,7 +382,9 @@ impl Builder<'_> {
 
     /// A call of a native; of constant scalars its value. More strings than a call has slots are joined in steps.
     pub(super) fn native(&mut self, name: String, mut args: Vec<Expr>, ty: TypeId, span: Span) -> Operand {
-        if let Some(Ok(c)) = self.fold_native(&name, &args, ty) {
+        if let Some(Ok(c)) = self.fold_native(&name, &args, ty)
+            && !self.unfolded
+        {
             return Operand::fixed(constant_expr(c, ty, span));
         }
         while args.len() > STRINGS_MAX {
@@ -369,6 +398,9 @@ impl Builder<'_> {
     /// A constant count below zero (§11).
     fn check_shift(&mut self, args: &[Expr]) {
         let [value, Expr { kind: ExprKind::Const(count), span, .. }] = args else { return };
+        if self.unfolded {
+            return;
+        }
         // Of two constants the folding reports it.
         if constant::int(count).is_some_and(|n| n < 0) && !matches!(value.kind, ExprKind::Const(_)) {
             let help = "shift the other way, or write ROL or ROR";

@@ -38,7 +38,12 @@ impl Builder<'_> {
     /// An informal call gives every input.
     fn all_inputs_given(&mut self, id: PouId, given: &[Option<Given>], span: Span) -> bool {
         let pou = &self.hir.pous[id];
-        let missing = pou.params.iter().zip(given).find(|(v, g)| pou.vars[**v].role == Role::Input && g.is_none());
+        let own = self.declared_enable(id).en;
+        let missing = pou
+            .params
+            .iter()
+            .zip(given)
+            .find(|(v, g)| pou.vars[**v].role == Role::Input && g.is_none() && own != Some(**v));
         let Some((var, _)) = missing else { return true };
         let label = format!("input `{}` is missing", pou.vars[*var].name);
         let help = "give all inputs in order, or name those that you give: `name := value`";
@@ -48,6 +53,20 @@ impl Builder<'_> {
 
     fn user_argument(&mut self, id: PouId, var: VarId, given: Option<Given>, span: Span) -> Option<Arg> {
         let v = &self.hir.pous[id].vars[var];
+        if self.open_parts(v.ty).is_some() {
+            let Some(g) = given else {
+                self.missing_in_out(id, var, span);
+                return None;
+            };
+            return Some(Arg::Reference(match self.hir.pous[id].vars[var].role {
+                Role::Input => {
+                    let v = &self.hir.pous[id].vars[var];
+                    let (ty, note) = (v.ty, (v.span, format!("`{}` is {}", v.name, self.show(v.ty))));
+                    self.open_input(g.expr(), ty, note)?
+                }
+                _ => self.in_out(id, var, g.expr())?,
+            }));
+        }
         Some(match (v.role, given) {
             (Role::Input, Some(Given::Value(e))) => {
                 let value = self.input(id, var, e);

@@ -32,6 +32,7 @@ fn parts(e: &Expr) -> Vec<&Expr> {
         ExprKind::Binary(_, a, b) => vec![a, b],
         ExprKind::Call { args, .. } => args.iter().filter_map(|a| if let Arg::Value(e) = a { Some(e) } else { None }).collect(),
         ExprKind::Intrinsic(_, args) | ExprKind::Native { args, .. } => args.iter().collect(),
+        ExprKind::Guarded(g) => g.en.iter().chain([&g.call]).collect(),
     }
 }
 
@@ -50,7 +51,7 @@ fn step_indices(step: &Step) -> Vec<&Expr> {
 
 /// True if a user's unit is called.
 fn calls(e: &Expr) -> bool {
-    matches!(e.kind, ExprKind::Call { .. }) || parts(e).into_iter().any(calls)
+    matches!(e.kind, ExprKind::Call { .. } | ExprKind::Guarded(_)) || parts(e).into_iter().any(calls)
 }
 
 /// True if evaluating it may stop the program.

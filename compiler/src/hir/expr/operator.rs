@@ -132,6 +132,7 @@ impl Builder<'_> {
         }
         let ty = if is_comparison(op) { self.bool() } else { a.ty };
         if let (ExprKind::Const(ca), ExprKind::Const(cb)) = (&a.kind, &b.kind)
+            && !self.unfolded
             && let Some(folded) = self.fold_binary(op, ca, cb, a.ty)
         {
             return match folded {
@@ -139,7 +140,7 @@ impl Builder<'_> {
                 Err(why) => self.fold_error(why, span),
             };
         }
-        if self.divides_by_zero(op, &b) {
+        if !self.unfolded && self.divides_by_zero(op, &b) {
             return self.fold_error(FoldError::DivisionByZero, span);
         }
         Operand::fixed(Expr { kind: ExprKind::Binary(op, Box::new(a), Box::new(b)), ty, span })

@@ -163,7 +163,7 @@ fn conversion_functions() {
             ("STRING_TO_INT(s)", "INT"),
             ("STRING_TO_WSTRING(s8)", "WSTRING[8]"),
             ("CHAR_TO_BYTE(vCHAR)", "BYTE"),
-            ("WORD_TO_REAL(vWORD)", "P1003"),
+            ("WORD_TO_REAL(vWORD)", "P2001"),
             ("INT_TO_CHAR(i)", "P1003"),
             ("TO_INT(vCHAR)", "P2001"),
             ("INT_TO_REAL(IN := i)", "REAL"),
@@ -193,7 +193,7 @@ fn formal_names_of_standard_functions() {
             ("SIN(IN := r)", "REAL"),
             ("SIN(X := r)", "P1006"),
             ("SIN(IN := r, IN := r)", "P2013"),
-            ("ADD(EN := b1, IN1 := 1, IN2 := 2)", "P0012"),
+            ("ADD(ENO := b1, IN1 := 1, IN2 := 2)", "P1020"),
             ("SIN(OUT => r)", "P1006"),
         ],
     );

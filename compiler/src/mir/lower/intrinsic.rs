@@ -64,7 +64,7 @@ impl Unit<'_, '_> {
     }
 
     /// `x - x` is 0 for all numbers, NaN for NaN and the infinities.
-    fn is_finite(&mut self, x: Operand) -> Local {
+    pub fn is_finite(&mut self, x: Operand) -> Local {
         let nothing = self.f.binary(BinaryOp::FSub, x.local, x.local);
         let zero = self.f.zero(x.e.scalar());
         self.f.compare(Compare::FEq, nothing, zero)
@@ -90,6 +90,11 @@ impl Unit<'_, '_> {
     /// SHL, SHR: 0 from the width on; a negative amount changes nothing.
     fn shift(&mut self, i: Intrinsic, args: &[Expr]) -> Value {
         let (x, n) = (self.scalar_operand(&args[0]), self.scalar_operand(&args[1]));
+        self.shifted(i, x, n)
+    }
+
+    /// Like [`Unit::shift`], with the operands at hand.
+    pub fn shifted(&mut self, i: Intrinsic, x: Operand, n: Operand) -> Value {
         let ty = self.f.ty(x.local);
         let amount = self.f.resize(n.local, Scalar::I64, n.e.is_signed_storage());
         let below = self.f.compare_const(Compare::ULt, amount, x.e.bits() as i64);
@@ -138,7 +143,7 @@ impl Unit<'_, '_> {
     }
 
     /// Input number K, from 0; input 0 if there is none.
-    fn mux(&mut self, values: Vec<Value>, k: &Expr) -> Value {
+    pub fn mux(&mut self, values: Vec<Value>, k: &Expr) -> Value {
         let e = self.hir.elementary(k.ty).expect("an integer");
         let k = self.f.resize(scalar_of(values[0]), Scalar::I64, e.is_signed_storage());
         let mut chosen = values[1];
