@@ -106,7 +106,7 @@ fn drive(args: &Args, session: &Session, watch: &Watch, resource: &mut Resource)
     };
     let csv = args.format == "csv";
     if csv {
-        say!("scan,time_ns,{}", watch.names().map(|n| cell(&n.to_string())).collect::<Vec<_>>().join(","));
+        say!("scan,time_ns,{}", watch.names().map(cell).collect::<Vec<_>>().join(","));
     }
     if args.scans == Some(0) {
         return Ok(());
