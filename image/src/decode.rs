@@ -145,6 +145,7 @@ impl<'a> Reader<'a> {
             6 => Type::Struct(self.record(value)?),
             7 => Type::Instance(self.record(value)?),
             8 => Type::Reference { target: TypeId(value) },
+            10 => Type::Open { element: TypeId(value), dims: self.u32()? },
             9 => {
                 let number = self.u32()? as usize;
                 Type::Pointer { target: TypeId(value), kind: self.choice(number, PointerKind::ALL, "kind of pointer")? }

@@ -12,7 +12,7 @@ fn s0_inputs_may_be_written_with_a_warning() {
     let text = "FUNCTION f : INT VAR_INPUT a : INT; END_VAR a := a + 1; f := a; END_FUNCTION
         PROGRAM main VAR x : INT := 4; y : INT; END_VAR y := f(x); END_PROGRAM";
     for profile in Profile::ALL {
-        let severity = if profile.is_codesys() { Severity::Warning } else { Severity::Error };
+        let severity = if profile.is_vendor() { Severity::Warning } else { Severity::Error };
         assert_eq!(codes(profile, text), [(Code::AssignToInput, severity)], "{profile:?}");
     }
     let mut plc = Plc::new_in(Profile::Codesys, text);
@@ -196,4 +196,55 @@ fn s1_4_conditional_compilation() {
     plc.scan(0).unwrap();
     assert_eq!(plc.get("main.x"), "1");
     assert_eq!(codes(Profile::Codesys, "{IF defined(a)} PROGRAM p END_PROGRAM"), [(Code::Expected, Severity::Error)]);
+}
+
+#[test]
+fn s12_a_constant_may_be_declared_behind_its_use_in_a_bound() {
+    let text =
+        "FUNCTION_BLOCK f VAR a : ARRAY[0..n] OF INT; END_VAR VAR_OUTPUT y : INT; END_VAR VAR CONSTANT n : INT := 3; END_VAR
+        a[n] := 7; y := a[3]; END_FUNCTION_BLOCK PROGRAM main VAR b : f; END_VAR b(); END_PROGRAM";
+    let mut plc = Plc::new_in(Profile::Codesys2, text);
+    plc.scan(0).unwrap();
+    assert_eq!(plc.get("main.b.y"), "7");
+}
+
+#[test]
+fn l2_6_conversions_between_bits_and_numbers() {
+    let vars = "d, dr : DWORD; r : REAL; b : BOOL;";
+    let body = "d := INT_TO_DWORD(INT#-1); r := DWORD_TO_REAL(16#3F800000); dr := REAL_TO_DWORD(1.0); b := BYTE_TO_BOOL(BYTE#2);";
+    let text = format!("PROGRAM main VAR {vars} END_VAR {body} END_PROGRAM");
+    for profile in Profile::ALL {
+        let mut plc = Plc::new_in(profile, &text);
+        plc.scan(0).unwrap();
+        let want = match profile {
+            Profile::Std => ["65535", "1.0", "1065353216", "FALSE"],
+            _ => ["4294967295", "1065353200.0", "1", "TRUE"],
+        };
+        assert_eq!(["d", "r", "dr", "b"].map(|v| plc.get(&format!("main.{v}"))), want, "{profile:?}");
+    }
+    let other_width = "PROGRAM main VAR w : WORD := 16#9C40; r : REAL; END_VAR r := WORD_TO_REAL(w); END_PROGRAM";
+    assert_eq!(codes(Profile::Std, other_width), [(Code::TypeMismatch, Severity::Error)]);
+    let mut plc = Plc::new_in(Profile::Codesys2, other_width);
+    plc.scan(0).unwrap();
+    assert_eq!(plc.get("main.r"), "40000.0");
+}
+
+#[test]
+fn s2_11_integers_have_bits_in_codesys() {
+    let text = "PROGRAM main VAR i : INT := 5; x : BOOL; END_VAR x := i.2; i.0 := FALSE; i.15 := TRUE; END_PROGRAM";
+    assert!(codes(Profile::Std, text).iter().all(|c| c.0 == Code::BadOperand));
+    let mut plc = Plc::new_in(Profile::Codesys, text);
+    plc.scan(0).unwrap();
+    assert_eq!(["x", "i"].map(|v| plc.get(&format!("main.{v}"))), ["TRUE", "-32764"]);
+}
+
+#[test]
+fn s1_4_inline_c_of_matiec_matters_where_it_is_called() {
+    let unit =
+        "FUNCTION ticks : DINT VAR_INPUT x : DINT; END_VAR ticks := x; {extern long t; ticks = t;} END_FUNCTION (* a (* b *)";
+    let idle = format!("{unit} PROGRAM main VAR n : DINT; END_VAR n := 1; END_PROGRAM");
+    assert_eq!(codes(Profile::OpenPlc, &idle), [(Code::NotSupportedYet, Severity::Warning)]);
+    let calling = format!("{unit} PROGRAM main VAR n : DINT; END_VAR n := ticks(1); END_PROGRAM");
+    assert_eq!(codes(Profile::OpenPlc, &calling), [(Code::NotSupportedYet, Severity::Error)]);
+    assert_eq!(codes(Profile::Codesys2, &calling), [(Code::NotSupportedYet, Severity::Error)]);
 }

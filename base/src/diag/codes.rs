@@ -84,6 +84,8 @@ codes! {
     P2015 RecursiveType "a type can't contain itself";
     P2016 TypeTooLarge "this type or program needs more memory than there is";
     P2017 NotReferable "this has no place that a reference may keep";
+    P2020 BadLayout "a member has no place in this structure";
+    P2019 MisplacedOpenArray "an array of variable length is a parameter, used by its elements";
     P2018 NotAReference "only a reference can be dereferenced";
 
     // --- P3 program rules ---

@@ -80,7 +80,7 @@ impl Builder<'_> {
             self.report(Diag::new(Code::NotAVariable, e.span, label).also(note.0, note.1).help(help));
             return None;
         }
-        if place.ty != ty {
+        if place.ty != ty && !self.open_takes(ty, place.ty) {
             let label = format!("{}, exactly {} wanted", self.show(place.ty), self.show(ty));
             let help = "a VAR_IN_OUT refers to the variable itself, so nothing can be converted";
             self.report(Diag::new(Code::TypeMismatch, e.span, label).also(note.0, note.1).help(help));

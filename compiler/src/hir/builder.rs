@@ -37,6 +37,8 @@ pub(super) struct Builder<'a> {
     pub place_only: bool,
     /// Values that the conversion in progress cuts: where, from what, to what.
     pub narrowings: Vec<(Span, TypeId, TypeId)>,
+    /// Members that are one bit of their byte, by structure and index: which bit.
+    pub bit_members: HashMap<(TypeId, u32), u32>,
     /// The next standard function has EN or ENO.
     pub guards_next: bool,
     /// A call with EN or ENO is being put together: it stays for the run time, where it tells its errors by ENO.
@@ -65,6 +67,7 @@ impl<'a> Builder<'a> {
             calls: Vec::new(),
             place_only: false,
             narrowings: Vec::new(),
+            bit_members: HashMap::new(),
             guards_next: false,
             unfolded: false,
             leaves: 0,

@@ -44,6 +44,7 @@ impl Builder<'_> {
 
     fn resolve_global(&mut self, id: GlobalId, decl: &ast::VarDecl) {
         let used = self.type_ref(&decl.ty);
+        self.check_relative(decl);
         if decl.edge.is_some() {
             self.error(Code::SectionNotAllowed, decl.span, "an edge is detected at inputs of function blocks and programs");
         }

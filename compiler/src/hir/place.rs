@@ -40,6 +40,9 @@ impl Builder<'_> {
         if ty == self.error {
             return self.bad(span);
         }
+        if self.open_parts(ty).is_some() {
+            return self.whole_open(span);
+        }
         if !matches!(self.ty(ty), Type::Array { .. } | Type::Struct(_) | Type::Instance(_))
             && let Some(c) = self.constant_at(&target.place)
         {
@@ -153,7 +156,8 @@ impl Builder<'_> {
                 }
             },
         };
-        if !self.ensure_global(id) && !(self.place_only && self.hir.globals[id].ty != self.error) {
+        let known = self.ensure_global(id) || self.place_only && self.hir.globals[id].ty != self.error;
+        if !known {
             let label = format!("the value of `{}` depends on itself", n.text);
             self.error(Code::NotConstant, n.span, label);
             return None;
@@ -208,6 +212,9 @@ impl Builder<'_> {
             Type::Struct(r) => (r, false),
             Type::Instance(r) => (r, true),
             _ => {
+                if let Some(bit) = self.named_bit(&base.place, name) {
+                    return self.part(base, ast::AddressSize::Bit, bit, span);
+                }
                 let label = format!("{} has no members", self.show(base.place.ty));
                 let diag = Diag::new(Code::UnknownMember, name.span, label);
                 let pointer = self.pointee(base.place.ty).is_some();
@@ -231,8 +238,13 @@ impl Builder<'_> {
             (Access::Write, true) => Access::Inside,
             (access, _) => access,
         };
+        let bit = self.bit_members.get(&(base.place.ty, index as u32)).copied();
         let mut place = base.place;
         place.path.push(Step::Field(index as u32));
+        if let Some(bit) = bit {
+            place.path.push(Step::Part { bit, width: 1 });
+            return Some(Target { place: Place { ty: self.bool(), span, ..place }, access });
+        }
         Some(Target { place: Place { ty, span, ..place }, access })
     }
 
@@ -253,6 +265,10 @@ impl Builder<'_> {
             }
             target = self.through_references(target);
             let (step, ty, used) = match self.ty(target.place.ty) {
+                &Type::Open { element, dims } => {
+                    let any = Dim { low: i32::MIN, high: i32::MAX };
+                    (self.element(&vec![any; dims as usize], rest, e.span)?, element, dims as usize)
+                }
                 Type::Pointer { .. } => {
                     self.codesys_form(e.span, "an index behind a pointer");
                     let index = self.index(rest[0], i32::MIN.into(), i32::MAX.into())?;
@@ -263,6 +279,12 @@ impl Builder<'_> {
                 Type::Array { element, dims } => {
                     let (element, dims) = (*element, dims.clone());
                     (self.element(&dims, rest, e.span)?, element, dims.len())
+                }
+                // The vendors count from 0 and have bytes, the zero behind the last included (§2.9).
+                &(Type::String { capacity } | Type::WString { capacity }) if self.profile(e.span).string_index_base() == 0 => {
+                    let wide = matches!(self.ty(target.place.ty), Type::WString { .. });
+                    let unit = if wide { Elementary::Word } else { Elementary::Byte };
+                    (Step::Index(vec![self.index(rest[0], 0, capacity.into())?]), self.elem(unit), 1)
                 }
                 Type::String { capacity } => (self.character(*capacity, rest[0])?, self.elem(Elementary::Char), 1),
                 Type::WString { capacity } => (self.character(*capacity, rest[0])?, self.elem(Elementary::Wchar), 1),
@@ -304,6 +326,13 @@ impl Builder<'_> {
             return None;
         }
         let o = self.settle(o);
+        let o = match *self.ty(o.ty) {
+            Type::Enum { base, .. } if self.profile(e.span).is_codesys() => {
+                let to = self.elem(base);
+                self.wrap(Conversion::Integer, o, to)
+            }
+            _ => o,
+        };
         let Some(kind) = self.elementary(o.ty).filter(|k| self.counts(*k, o.span)) else {
             let label = format!("{}, an integer wanted", self.show(o.ty));
             self.report(Diag::new(Code::TypeMismatch, e.span, label).help("an index is an integer"));
@@ -323,6 +352,17 @@ impl Builder<'_> {
         Some(if o.ty == to { o } else { self.wrap(Conversion::Integer, o, to) })
     }
 
+    /// `w.cBit` (vendor): the number of a bit as a constant.
+    fn named_bit(&mut self, base: &Place, name: &ast::Name) -> Option<u32> {
+        let bits = self.elementary_or_base(base.ty).is_some_and(|e| e.is_int() || e.is_bit());
+        let known = self.local(&name.key()).is_some() || self.symbols.globals.contains_key(&name.key());
+        if !bits || !known || !self.profile(name.span).is_codesys() {
+            return None;
+        }
+        let e = ast::Expr { kind: ast::ExprKind::Name(name.clone()), span: name.span };
+        self.const_int(&e).and_then(|v| u32::try_from(v).ok())
+    }
+
     fn elementary_or_base(&self, ty: TypeId) -> Option<Elementary> {
         self.hir.types.storage(ty).filter(|_| self.pointee(ty).is_none())
     }
@@ -332,7 +372,9 @@ impl Builder<'_> {
         if base.place.ty == self.error {
             return None;
         }
-        let whole = self.elementary_or_base(base.place.ty).filter(|e| e.is_bit() && *e != Elementary::Bool);
+        let vendor = self.profile(span).is_vendor();
+        let bits = |e: &Elementary| e.is_bit() && *e != Elementary::Bool || e.is_int() && vendor;
+        let whole = self.elementary_or_base(base.place.ty).filter(bits);
         let Some(whole) = whole.filter(|_| !ends_in_part(&base.place)) else {
             let help = "convert an integer to a bit string first, for example with INT_TO_WORD";
             let label = format!("{} has no bits to name", self.show(base.place.ty));

@@ -125,6 +125,9 @@ impl Builder<'_> {
     /// `REF(v)`.
     pub(super) fn ref_of(&mut self, e: &ast::Expr, span: Span) -> Operand {
         let Some(place) = self.referable(e) else { return self.bad(span) };
+        if self.open_parts(place.ty).is_some() {
+            return self.whole_open(span);
+        }
         let ty = self.pointer_to(PointerKind::RefTo, place.ty);
         Operand::fixed(Expr { kind: ExprKind::Address(place), ty, span })
     }
@@ -234,6 +237,7 @@ impl Builder<'_> {
             return self.value(e, ty);
         }
         let o = match self.referable(e) {
+            Some(place) if self.open_parts(place.ty).is_some() => self.whole_open(e.span),
             Some(place) => {
                 let from = self.pointer_to(PointerKind::RefTo, place.ty);
                 Operand::fixed(Expr { kind: ExprKind::Address(place), ty: from, span: e.span })

@@ -37,7 +37,10 @@ impl Builder<'_> {
         if decl.kind == ast::PouKind::Function {
             self.declare_result(id, decl);
         }
-        for section in &decl.sections {
+        // Constants first: bounds and lengths may use one that is declared further down.
+        let constant = |s: &&ast::VarSection| s.constant && matches!(s.kind, SectionKind::Var | SectionKind::External);
+        let sections = decl.sections.iter().filter(constant).chain(decl.sections.iter().filter(|s| !constant(s)));
+        for section in sections {
             self.check_section(decl, section);
             for d in &section.decls {
                 self.declare_vars(id, decl, section, d);
@@ -79,7 +82,7 @@ impl Builder<'_> {
         if section.kind == SectionKind::Global {
             return;
         }
-        let used = self.type_ref(&d.ty);
+        let used = self.declared_var_type(pou, section, &d.ty);
         self.check_decl(pou, section, d, used.ty);
         self.check_kept_reference(used.ty, section.retain == Some(true), d.at.is_some(), d.ty.span);
         let init = d.init.as_ref().map_or_else(|| used.default.clone(), |i| self.initial(i, &used));

@@ -2,6 +2,9 @@
 //! From: IEC 61131-3 edition 3, §6 and §7.3. Shared by all textual languages.
 #![allow(missing_docs)] // the names of fields and variants say it; what they do not say stands beside them
 
+mod operator;
+
+pub use operator::{BinaryOp, UnaryOp};
 use takt_base::Span;
 
 /// An identifier as written; compare with [`Name::is`].
@@ -56,6 +59,8 @@ pub struct Pou {
     pub body: Vec<Stmt>,
     /// `{external}` stands before it: the body is a native.
     pub external: bool,
+    /// `{extern ..}` in its body: inline C of MATIEC.
+    pub inline_c: Option<Span>,
     /// From the first to the last keyword.
     pub span: Span,
 }
@@ -100,6 +105,8 @@ pub struct VarDecl {
     pub names: Vec<Name>,
     /// AT.
     pub at: Option<Address>,
+    /// AT in a structure.
+    pub relative: Option<RelativeAddress>,
     /// Type.
     pub ty: TypeRef,
     /// R_EDGE or F_EDGE.
@@ -108,6 +115,28 @@ pub struct VarDecl {
     pub init: Option<Init>,
     /// All of it.
     pub span: Span,
+}
+
+/// `%B2`, `%X3.0`: a place in a structure.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RelativeAddress {
+    /// X or B.
+    pub size: AddressSize,
+    pub byte: u32,
+    /// 0 if left out.
+    pub bit: u32,
+    /// Where.
+    pub span: Span,
+}
+
+/// STRUCT with addresses, STRUCT OVERLAP or UNION.
+#[derive(Clone, Debug)]
+pub struct LayoutDecl {
+    pub members: Vec<VarDecl>,
+    /// Members may share bytes.
+    pub overlap: bool,
+    /// All members begin at 0.
+    pub union: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -210,8 +239,15 @@ pub enum TypeRefKind {
         kind: takt_image::types::PointerKind,
         target: Box<TypeRef>,
     },
+    /// `ARRAY [*, *] OF T`.
+    OpenArray {
+        dims: usize,
+        element: Box<TypeRef>,
+    },
     /// Anonymous enumeration.
     Enum(EnumDecl),
+    /// STRUCT with addresses, STRUCT OVERLAP or UNION.
+    Layout(LayoutDecl),
     /// Anonymous structure (vendor).
     Struct(Vec<VarDecl>),
     /// Something was wrong here and has been reported.
@@ -459,59 +495,4 @@ pub enum Literal {
         ty: takt_image::Elementary,
         value: Box<Literal>,
     },
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum UnaryOp {
-    Neg,
-    Plus,
-    Not,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum BinaryOp {
-    Or,
-    Xor,
-    And,
-    Eq,
-    Ne,
-    Lt,
-    Gt,
-    Le,
-    Ge,
-    Add,
-    Sub,
-    Mul,
-    Div,
-    Mod,
-    Power,
-    /// AND_THEN, OR_ELSE (vendor): always short-circuit.
-    AndThen,
-    OrElse,
-}
-
-impl BinaryOp {
-    /// As the user writes it.
-    pub const fn text(self) -> &'static str {
-        use BinaryOp::*;
-        match self {
-            Or => "OR",
-            Xor => "XOR",
-            And => "AND",
-            Eq => "=",
-            Ne => "<>",
-            Lt => "<",
-            Gt => ">",
-            Le => "<=",
-            Ge => ">=",
-            Add => "+",
-            Sub => "-",
-            Mul => "*",
-            Div => "/",
-            Mod => "MOD",
-            Power => "**",
-            AndThen => "AND_THEN",
-            OrElse => "OR_ELSE",
-        }
-    }
 }

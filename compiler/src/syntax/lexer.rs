@@ -141,6 +141,8 @@ pub(crate) struct Tokens {
     pub(crate) list: Vec<Token>,
     /// Positions in `list` before which `{external}` stands, ascending.
     pub(crate) external: Vec<usize>,
+    /// Inline C of MATIEC: the position in `list` behind it, and its place; ascending.
+    pub(crate) inline_c: Vec<(usize, Span)>,
     /// A comment or pragma that is not closed (and has been reported) hides the end of the text.
     pub(crate) cut: bool,
 }
@@ -159,6 +161,7 @@ pub(crate) fn lex(text: &str, source: SourceId, profile: Profile, report: &mut R
         report,
         nested,
         external: Vec::new(),
+        inline_c: Vec::new(),
         conditional: Conditional::default(),
         profile,
         cut: false,
@@ -187,7 +190,7 @@ pub(crate) fn lex(text: &str, source: SourceId, profile: Profile, report: &mut R
     scan.close_conditional();
     let end = text.len() as u32;
     list.push(Token { kind: Tok::Eof, kw: Kw::None, start: end, end });
-    Tokens { list, external: scan.external, cut: scan.cut }
+    Tokens { list, external: scan.external, inline_c: scan.inline_c, cut: scan.cut }
 }
 
 /// The word that opens a graphical body in a CODESYS 2 export (language reference §17).
@@ -202,6 +205,7 @@ struct Scan<'t, 'r, 's> {
     nested: bool,
     report: &'r mut Report<'s>,
     external: Vec<usize>,
+    inline_c: Vec<(usize, Span)>,
     /// `{IF ..}` of CODESYS; not followed in other profiles.
     conditional: Conditional,
     profile: Profile,
@@ -377,6 +381,9 @@ impl Scan<'_, '_, '_> {
             && let Some(followed) = self.conditional.follow(text)
         {
             self.check_conditional(followed);
+        } else if self.profile == Profile::OpenPlc && is_inline_c(text) {
+            let span = self.span();
+            self.inline_c.push((before, span));
         } else if let Some(what) = unsupported_pragma(text) {
             let diag = Diag::new(Code::NotSupportedYet, self.span(), "would change the program");
             self.report.push(diag.message(format!("{what} is not supported by this version")));
@@ -442,7 +449,12 @@ fn unsupported_pragma(text: &str) -> Option<&'static str> {
     if is("#include") {
         return Some("the include pragma");
     }
-    (is("extern") || is("{extern")).then_some("inline C")
+    is_inline_c(text).then_some("inline C")
+}
+
+/// `{extern int x; ..}`
+fn is_inline_c(text: &str) -> bool {
+    text.trim_start_matches('{').split(char::is_whitespace).next().is_some_and(|w| w.eq_ignore_ascii_case("extern"))
 }
 
 /// What to type instead of a character that a word processor has put there.

@@ -143,6 +143,9 @@ impl Builder<'_> {
         if let (Some(op), None, false) = (operator, fixed, untyped) {
             return self.apply_operator(op, args, span, want);
         }
+        if let Some(shifted) = self.shift_of_integer(f, &args, span) {
+            return shifted;
+        }
         let Some(args) = self.fit_parameters(f, fixed, args, span, want) else { return self.bad(span) };
         if let Some(op) = operator {
             return self.apply_operator(op, args.into_iter().map(Operand::fixed).collect(), span, fixed);
@@ -150,6 +153,26 @@ impl Builder<'_> {
         let common = f.params.iter().zip(&args).find(|(p, _)| matches!(p.ty, Pattern::T(_))).map(|(_, a)| a.ty);
         let ty = self.result_type(f, common, &args, want);
         self.finish(f, args, ty, span)
+    }
+
+    /// SHL, SHR, ROL and ROR of an integer (vendor): of its bits, and an integer again. `None` if it is no such case.
+    fn shift_of_integer(&mut self, f: &Function, args: &[Operand], span: Span) -> Option<Operand> {
+        let shifts = [Intrinsic::Shl, Intrinsic::Shr, Intrinsic::Rol, Intrinsic::Ror].map(Lowering::Inline);
+        let (first, rest) = args.split_first().filter(|_| shifts.contains(&f.lowering) && self.profile(span).is_codesys())?;
+        let first = self.decay(first.clone());
+        let value = self.settle(first);
+        let integer = self.elementary(value.ty).filter(|e| e.is_int())?;
+        let bits = match integer.bits() {
+            8 => Elementary::Byte,
+            16 => Elementary::Word,
+            32 => Elementary::Dword,
+            _ => Elementary::Lword,
+        };
+        let (to, back) = (self.elem(bits), value.ty);
+        let value = Operand::fixed(self.wrap(Conversion::Integer, value, to));
+        let args = std::iter::once(value).chain(rest.iter().cloned()).collect();
+        let shifted = self.apply_function(f, None, args, span, None);
+        Some(if self.is_bad(&shifted) { shifted } else { Operand::fixed(self.wrap(Conversion::Integer, shifted.expr, back)) })
     }
 
     /// ADD(a, b, c) is a + b + c.
@@ -250,7 +273,7 @@ impl Builder<'_> {
             all = if x.flex == Flex::Fixed || x.flex == y.flex { larger(self, x, y) } else { y };
         }
         let ty = self.group_type(group, &all, want);
-        let fine = self.in_group(f, group, ty);
+        let fine = self.in_group(f, group, ty) || self.shifts_integer(f, ty, span);
         if !fine {
             let label = format!("`{}` of {}", f.name, self.show(ty));
             self.report(Diag::new(Code::BadOperand, span, label).help(group_help(group)));
@@ -282,6 +305,13 @@ impl Builder<'_> {
             Some(real) => self.elem(real),
             None => o.expr.ty,
         }
+    }
+
+    /// The vendors shift integers as the bits that they are (library reference §5).
+    fn shifts_integer(&self, f: &Function, ty: TypeId, span: Span) -> bool {
+        use Intrinsic::{Rol, Ror, Shl, Shr};
+        let shift = matches!(f.lowering, Lowering::Inline(Shl | Shr | Rol | Ror));
+        shift && self.profile(span).is_vendor() && self.elementary(ty).is_some_and(Elementary::is_int)
     }
 
     fn in_group(&self, f: &Function, group: Generic, ty: TypeId) -> bool {

@@ -50,6 +50,20 @@ impl Builder<'_> {
 
     fn user_argument(&mut self, id: PouId, var: VarId, given: Option<Given>, span: Span) -> Option<Arg> {
         let v = &self.hir.pous[id].vars[var];
+        if self.open_parts(v.ty).is_some() {
+            let Some(g) = given else {
+                self.missing_in_out(id, var, span);
+                return None;
+            };
+            return Some(Arg::Reference(match self.hir.pous[id].vars[var].role {
+                Role::Input => {
+                    let v = &self.hir.pous[id].vars[var];
+                    let (ty, note) = (v.ty, (v.span, format!("`{}` is {}", v.name, self.show(v.ty))));
+                    self.open_input(g.expr(), ty, note)?
+                }
+                _ => self.in_out(id, var, g.expr())?,
+            }));
+        }
         Some(match (v.role, given) {
             (Role::Input, Some(Given::Value(e))) => {
                 let value = self.input(id, var, e);

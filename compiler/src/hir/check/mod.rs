@@ -1,5 +1,6 @@
 //! Rules about whole units and the whole program: one rule, one file.
 
+mod inline_c;
 mod reach;
 mod recursion;
 mod result;
@@ -11,4 +12,5 @@ use super::builder::Builder;
 pub(super) fn all(builder: &mut Builder) {
     reach::mark(builder);
     recursion::check(builder);
+    inline_c::check(builder);
 }

@@ -29,10 +29,19 @@ impl Builder<'_> {
     /// A declaration in a section of a unit.
     pub fn check_decl(&mut self, pou: &ast::Pou, section: &ast::VarSection, d: &ast::VarDecl, ty: TypeId) {
         self.check_edge(pou, section, d, ty);
+        self.check_relative(d);
         self.check_address(pou, section, d);
         self.check_instance(pou, section, ty, d.ty.span);
         if let Some(init) = d.init.as_ref().filter(|_| section.kind == SectionKind::InOut) {
             self.error(Code::BadInitializer, init.span(), "a VAR_IN_OUT has no value of its own");
+        }
+    }
+
+    /// `%B2` is a place in a structure, not of a variable.
+    pub fn check_relative(&mut self, d: &ast::VarDecl) {
+        if let Some(at) = &d.relative {
+            let help = "write the area: %IB2, %QB2 or %MB2";
+            self.report(Diag::new(Code::BadAddress, at.span, "a relative address outside of a structure").help(help));
         }
     }
 

@@ -2,6 +2,8 @@
 
 mod array;
 mod enumeration;
+pub(super) mod layout;
+mod open;
 pub(super) mod structure;
 
 use super::builder::Builder;
@@ -53,6 +55,11 @@ impl Builder<'_> {
                 self.structure(name, members, t.span, None)
             }
             ast::TypeRefKind::Pointer { kind, target } => self.pointer_type(*kind, target),
+            ast::TypeRefKind::Layout(layout) => {
+                let name = self.sources.text(t.span).split_whitespace().collect::<Vec<_>>().join(" ");
+                self.placed_structure(name, layout, t.span)
+            }
+            ast::TypeRefKind::OpenArray { .. } => self.misplaced_open(t.span),
             ast::TypeRefKind::Error => self.bad_type(),
         }
     }
@@ -61,6 +68,10 @@ impl Builder<'_> {
     pub fn named_type(&mut self, name: &ast::Name) -> TypeUse {
         if let Some(e) = Elementary::from_name(&name.text) {
             let ty = self.elem(e);
+            return self.plain(ty);
+        }
+        if name.is("BIT") && !self.symbols.units.contains_key(&name.key()) && self.profile(name.span).is_codesys() {
+            let ty = self.bool();
             return self.plain(ty);
         }
         match self.symbols.units.get(&name.key()) {
@@ -118,6 +129,9 @@ impl Builder<'_> {
         let body = match &decl.body {
             ast::TypeBody::Ref(ast::TypeRef { kind: ast::TypeRefKind::Subrange { base, low, high }, span }) => {
                 self.subrange(Some(name), base, low, high, *span)
+            }
+            ast::TypeBody::Ref(ast::TypeRef { kind: ast::TypeRefKind::Layout(layout), .. }) => {
+                self.placed_structure(name.clone(), layout, decl.name.span)
             }
             ast::TypeBody::Ref(t) => self.type_ref(t),
             ast::TypeBody::Enum(e) => self.enumeration(name.clone(), e),

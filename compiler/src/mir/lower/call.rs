@@ -98,7 +98,7 @@ impl Unit<'_, '_> {
                 (self.fitted(kept, param.ty), self.hir.elementary(param.ty))
             }
             Arg::Reference(place) => {
-                let addr = self.lend(place, back);
+                let addr = if self.is_open(param.ty) { self.describe(place) } else { self.lend(place, back) };
                 (self.at_address(addr, param.ty), None)
             }
             Arg::Output { target, negated } => {
@@ -197,7 +197,7 @@ impl Unit<'_, '_> {
                 self.assign(Loc::Memory(pin), var.ty, value);
             }
             Arg::Reference(place) => {
-                let addr = self.lend(place, back);
+                let addr = if self.is_open(var.ty) { self.describe(place) } else { self.lend(place, back) };
                 let offset = self.f.address(addr);
                 self.f.store(pin, offset);
             }

@@ -91,8 +91,28 @@ impl Unit<'_, '_> {
         }
         let loc = self.place_for(p, Purpose::Read);
         let value = self.load(loc, p.ty);
-        let any_byte = p.derefs() && self.hir.elementary(p.ty) == Some(Elementary::Bool);
+        let any_byte =
+            self.hir.elementary(p.ty) == Some(Elementary::Bool) && !matches!(loc, Loc::Bit(..)) && self.shares_bytes(p);
         if any_byte { self.f.compare_const(Compare::Ne, value, 0) } else { value }
+    }
+
+    /// True if something else may have written the bytes of the place.
+    fn shares_bytes(&self, p: &Place) -> bool {
+        let mut ty = match p.base {
+            Base::Var(v) => self.var(v).ty,
+            Base::Global(g) => self.hir.globals[g].ty,
+            Base::Image(_) | Base::Value(_) => return p.derefs(),
+        };
+        for step in &p.path {
+            ty = match (step, self.hir.types.get(ty)) {
+                (Step::Deref, _) => return true,
+                (Step::Field(_), _) if self.hir.types.overlaps(ty) => return true,
+                (Step::Field(i), Type::Struct(r) | Type::Instance(r)) => r.fields[*i as usize].ty,
+                (Step::Index(_), Type::Array { element, .. } | Type::Open { element, .. }) => *element,
+                _ => return false,
+            };
+        }
+        false
     }
 
     /// REF and ADR.

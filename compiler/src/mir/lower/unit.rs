@@ -6,6 +6,7 @@
 use super::Program;
 use super::builder::{Builder, at, behind, fixed};
 use super::counted::Counter;
+use super::open::OpenArray;
 use super::place::{Loc, field};
 use super::shape::{Shape, shape};
 use super::walk::{self, Event};
@@ -30,6 +31,8 @@ pub enum Home {
     Memory(Addr),
     /// In the process image.
     Image(ImagePlace),
+    /// An array of variable length: its number in [`Unit::open`].
+    Open(usize),
 }
 
 /// Where EXIT and CONTINUE go.
@@ -47,6 +50,7 @@ pub struct Unit<'p, 'h> {
     /// `None` in the entry of a program with connections.
     pub pou: Option<PouId>,
     pub homes: IndexVec<VarId, Home>,
+    pub open: Vec<OpenArray>,
     pub loops: Vec<LoopEnds>,
     pub counters: Vec<Counter>,
     /// Registers of FOR variables in memory; loops of one variable are never within each other.
@@ -98,6 +102,7 @@ impl<'p, 'h> Unit<'p, 'h> {
             f,
             pou,
             homes: IndexVec::new(),
+            open: Vec::new(),
             loops: Vec::new(),
             counters: Vec::new(),
             counter_registers: HashMap::new(),
@@ -211,6 +216,9 @@ impl<'p, 'h> Unit<'p, 'h> {
             self.f.trap_if(Trap::Reference, unbound);
         }
         self.check_in_out(target, self.hir.types.layout(var.ty).size);
+        if self.is_open(var.ty) {
+            return self.open_home(target, var.ty);
+        }
         Home::Memory(at(target))
     }
 
@@ -221,6 +229,7 @@ impl<'p, 'h> Unit<'p, 'h> {
         for (id, var) in pou.vars.enumerate() {
             let given = incoming.iter().find(|(p, _)| *p == id).map(|(_, local)| *local);
             let home = match (var.role, given) {
+                (_, Some(local)) if self.is_open(var.ty) => self.open_home(local, var.ty),
                 (Role::InOut, Some(local)) => Home::Memory(at(local)),
                 (Role::Input, Some(local)) => self.input_home(id, var, local),
                 (Role::Result, _) if destination.is_some() && self.fixed_home(id).is_some() => {
@@ -315,7 +324,7 @@ impl<'p, 'h> Unit<'p, 'h> {
                 self.f.store(pin, on);
             }
             let given = matches!(var.role, Role::Input | Role::InOut);
-            if var.storage != Storage::Local || given {
+            if var.storage != Storage::Local || given || self.is_open(var.ty) {
                 continue;
             }
             match (self.shape(var.ty), self.homes[id]) {
@@ -372,6 +381,6 @@ fn home_loc(home: Home) -> Loc {
     match home {
         Home::Register(l) => Loc::Register(l),
         Home::Memory(a) => Loc::Memory(a),
-        Home::Image(_) => unreachable!("locals are not in the process image"),
+        Home::Image(_) | Home::Open(_) => unreachable!("locals are not in the process image"),
     }
 }

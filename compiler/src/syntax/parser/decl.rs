@@ -60,6 +60,7 @@ impl Parser<'_> {
     }
 
     fn pou(&mut self, kind: PouKind, end: Kw) -> Pou {
+        let first = self.pos;
         let external = self.tokens.external.binary_search(&self.pos).is_ok();
         let opener = self.here();
         let opener_name = self.bump().kw.text();
@@ -71,8 +72,10 @@ impl Parser<'_> {
         let body = self.pou_body(&mut sections);
         self.close_pou(end, opener, opener_name);
         let name = name.unwrap_or(Name { text: String::new(), span: opener.end_point() });
+        let inside = |at: &&(usize, Span)| (first..=self.pos).contains(&at.0);
+        let inline_c = self.tokens.inline_c.iter().find(inside).map(|c| c.1);
         let result = result.filter(|_| kind == PouKind::Function);
-        Pou { kind, name, result, sections, body, external, span: self.since(opener) }
+        Pou { kind, name, result, sections, body, external, inline_c, span: self.since(opener) }
     }
 
     /// The name, and what stands around it that this version lacks.

@@ -3,7 +3,9 @@
 
 use super::cursor::Parser;
 use super::literal::problem_diag;
-use crate::syntax::ast::{Address, Edge, Name, SectionKind, TypeRef, TypeRefKind, VarDecl, VarSection};
+use crate::syntax::ast::{
+    Address, AddressSize, Edge, Name, RelativeAddress, SectionKind, TypeRef, TypeRefKind, VarDecl, VarSection,
+};
 use crate::syntax::keyword::Kw;
 use crate::syntax::lexer::Tok;
 use crate::syntax::literal::address;
@@ -123,7 +125,9 @@ impl Parser<'_> {
     fn var_decl_inner(&mut self) -> Option<VarDecl> {
         let start = self.here();
         let names = if self.kw() == Kw::At { Vec::new() } else { self.names()? };
-        let at = if self.eat_kw(Kw::At) { self.located()? } else { None };
+        let has_at = self.eat_kw(Kw::At);
+        let relative = if has_at { self.relative() } else { None };
+        let at = if has_at && relative.is_none() { self.located()? } else { None };
         if !self.eat(Tok::Colon) {
             self.no_colon(&names);
             if self.lost {
@@ -136,7 +140,7 @@ impl Parser<'_> {
         if matches!(ty, TypeRef { kind: TypeRefKind::Error, .. }) && names.is_empty() {
             return None;
         }
-        Some(VarDecl { names, at, ty, edge, init, span: self.since(start) })
+        Some(VarDecl { names, at, relative, ty, edge, init, span: self.since(start) })
     }
 
     fn names(&mut self) -> Option<Vec<Name>> {
@@ -157,10 +161,6 @@ impl Parser<'_> {
         let span = self.span_of(token);
         let address = match address::direct(self.text_of(token), span) {
             Ok(address) => Some(address),
-            Err(_) if address::partial(self.text_of(token)).is_ok() => {
-                self.unsupported_here("a relative address in a structure");
-                None
-            }
             Err(problem) => {
                 self.soft(problem_diag(problem, span));
                 None
@@ -168,6 +168,23 @@ impl Parser<'_> {
         };
         self.bump();
         Some(address)
+    }
+
+    /// `%B2`, `%X3.0` behind AT: a place in a structure.
+    fn relative(&mut self) -> Option<RelativeAddress> {
+        let token = self.peek();
+        if token.kind != Tok::Direct {
+            return None;
+        }
+        let (text, span) = (self.text_of(token), self.span_of(token));
+        let (first, bit) = text.split_once('.').map_or((text, None), |(a, b)| (a, Some(b)));
+        let (size, byte) = address::partial(first).ok()?;
+        let bit = bit.map_or(Some(0), |b| address::bit(b).ok())?;
+        if !matches!(size, AddressSize::Bit | AddressSize::Byte) || text.contains('.') != (size == AddressSize::Bit) {
+            return None;
+        }
+        self.bump();
+        Some(RelativeAddress { size, byte, bit, span })
     }
 
     /// A colon is missing behind the names; not lost afterwards if a type follows.

@@ -83,7 +83,9 @@ fn type_ref(t: &TypeRef) -> String {
             let dims: Vec<_> = dims.iter().map(|(l, h)| format!("{}..{}", expr(l), expr(h))).collect();
             format!("[{}]{}", dims.join(","), type_ref(element))
         }
+        TypeRefKind::OpenArray { dims, element } => format!("[{}]{}", vec!["*"; *dims].join(","), type_ref(element)),
         TypeRefKind::Enum(e) => enumeration(e),
+        TypeRefKind::Layout(l) => list([if l.union { "union" } else { "layout" }.into(), all(&l.members, var)]),
         TypeRefKind::Struct(members) => list(["struct".into(), all(members, var)]),
         TypeRefKind::Pointer { kind, target } => list([kind.text().to_lowercase().replace(' ', "_"), type_ref(target)]),
         TypeRefKind::Error => "?".into(),
