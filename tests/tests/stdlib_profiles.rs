@@ -26,9 +26,9 @@ fn s2_6_vectors() {
     row("DWORD", "INT", "INT_TO_DWORD(?)", "-1", ["65535", "4294967295", "4294967295"]);
     row("REAL", "DWORD", "DWORD_TO_REAL(?)", "16#3F800000", ["1.0", "1065353200.0", "1065353200.0"]);
     row("DWORD", "REAL", "REAL_TO_DWORD(?)", "1.0", ["1065353216", "1", "1"]);
-    row("BOOL", "BYTE", "BYTE_TO_BOOL(?)", "2", ["FALSE", "TRUE", "TRUE"]);
+    row("BOOL", "BYTE", "BYTE_TO_BOOL(?)", "16#2", ["FALSE", "TRUE", "TRUE"]);
     row("BYTE", "USINT", "USINT_TO_BCD_BYTE(?)", "42", ["66", "66", "66"]);
-    row("SINT", "BYTE", "BYTE_TO_SINT(?)", "255", ["-1", "-1", "-1"]);
+    row("SINT", "BYTE", "BYTE_TO_SINT(?)", "16#FF", ["-1", "-1", "-1"]);
 }
 
 #[test]
