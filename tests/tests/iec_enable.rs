@@ -189,7 +189,7 @@ fn s4_8_calls_within_expressions() {
     let vars = "x : INT; z, n : INT := 3; ok, ok2 : BOOL; s : STRING := 'old'; t : STRING; p : BOOL;";
     let body = "x := 10 + DIV(IN1 := 6, IN2 := n, ENO => ok) * 2 + Plain(EN := FALSE, a := 5, ENO => ok2);
         t := CONCAT(LEFT(EN := FALSE, IN := 'abc', L := 2), 'x'); z := DIV(EN := n <> 3, IN1 := 1, IN2 := n - 3);
-        s := MID(EN := ok2, IN := s, L := 1, P := 1); p := NOT DIV(IN1 := n, IN2 := 0, ENO => ok2) > 0 AND NOT ok2;";
+        s := MID(EN := ok2, IN := s, L := 1, P := 1); p := NOT (DIV(IN1 := n, IN2 := 0, ENO => ok2) > 0) AND NOT ok2;";
     check_in(
         SCALE,
         vars,

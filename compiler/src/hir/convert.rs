@@ -378,6 +378,10 @@ impl Builder<'_> {
                 let (low, high) = target?.int_range()?;
                 Const::Int((constant::real(c)?.round_ties_even() as i128).clamp(low, high))
             }
+            Conversion::RealToIntAway => {
+                let (low, high) = target?.int_range()?;
+                Const::Int((constant::real(c)?.round() as i128).clamp(low, high))
+            }
             Conversion::Real => Const::Real(constant::round(target?, constant::real(c)?)),
             Conversion::Bits => fold_bits(c, source?, target?)?,
             Conversion::String => return self.fold_text(c, from, to),

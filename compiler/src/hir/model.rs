@@ -320,6 +320,8 @@ pub enum Conversion {
     IntToReal,
     /// Real to integer, nearest even, saturating, NaN to 0.
     RealToInt,
+    /// Like `RealToInt`, halves away from zero (profile codesys).
+    RealToIntAway,
     /// REAL to LREAL or back.
     Real,
     /// DWORD to REAL and the like: same bits.

@@ -132,6 +132,7 @@ pub(super) fn real_to_int(value: f64, to: Elementary) -> Result<Const, FoldError
 
 fn shift(i: Intrinsic, e: Elementary, value: i128, n: i128) -> Folded {
     let width = i128::from(e.bits());
+    let value = value & ((1 << width) - 1); // the bits, of negative numbers too
     let by = |n: i128| u32::try_from(n.clamp(0, 127)).unwrap_or(127);
     let turned = n.rem_euclid(width);
     let rotate = |left: i128| (value << by(left)) | (value >> by(width - left));

@@ -273,7 +273,7 @@ impl Builder<'_> {
             all = if x.flex == Flex::Fixed || x.flex == y.flex { larger(self, x, y) } else { y };
         }
         let ty = self.group_type(group, &all, want);
-        let fine = self.in_group(f, group, ty);
+        let fine = self.in_group(f, group, ty) || self.shifts_integer(f, ty, span);
         if !fine {
             let label = format!("`{}` of {}", f.name, self.show(ty));
             self.report(Diag::new(Code::BadOperand, span, label).help(group_help(group)));
@@ -305,6 +305,13 @@ impl Builder<'_> {
             Some(real) => self.elem(real),
             None => o.expr.ty,
         }
+    }
+
+    /// The vendors shift integers as the bits that they are (library reference §5).
+    fn shifts_integer(&self, f: &Function, ty: TypeId, span: Span) -> bool {
+        use Intrinsic::{Rol, Ror, Shl, Shr};
+        let shift = matches!(f.lowering, Lowering::Inline(Shl | Shr | Rol | Ror));
+        shift && self.profile(span).is_vendor() && self.elementary(ty).is_some_and(Elementary::is_int)
     }
 
     fn in_group(&self, f: &Function, group: Generic, ty: TypeId) -> bool {

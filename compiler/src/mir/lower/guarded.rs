@@ -190,6 +190,11 @@ impl Unit<'_, '_> {
         let value = self.convert_value(how, x.local, from, e.ty, None);
         let ok = match how {
             Conversion::Integer if from.is_int() && to.is_int() => self.same_number(x.local, from, value, to),
+            Conversion::RealToIntAway => {
+                let wide = self.as_f64(x);
+                let whole = self.nearest_away(wide, Elementary::Lreal);
+                self.within(whole, to)
+            }
             Conversion::RealToInt => {
                 let wide = self.as_f64(x);
                 let whole = self.f.unary(UnaryOp::FNearest, wide);
