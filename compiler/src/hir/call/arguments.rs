@@ -34,7 +34,7 @@ impl Builder<'_> {
         span: Span,
     ) -> Option<Vec<Option<Given<'t>>>> {
         let mut given: Vec<Option<Given<'t>>> = vec![None; self.hir.pous[id].params.len()];
-        let mut fine = true;
+        let mut fine = self.check_forms(args);
         for (position, arg) in args.iter().enumerate() {
             let (slot, value) = match arg {
                 ast::Arg::Positional(e) => (self.positional(id, position, e.span, span), Some(Given::Value(e))),
@@ -60,6 +60,17 @@ impl Builder<'_> {
             }
         }
         fine.then_some(given)
+    }
+
+    /// Positional arguments stand in front; false and a report if one stands behind a named one.
+    fn check_forms(&mut self, args: &[ast::Arg]) -> bool {
+        let named = args.iter().position(|a| !matches!(a, ast::Arg::Positional(_))).unwrap_or(args.len());
+        let late = args[named..].iter().find_map(|a| if let ast::Arg::Positional(e) = a { Some(e) } else { None });
+        if let Some(e) = late {
+            let help = "name this argument too: `name := value`";
+            self.report(Diag::new(Code::WrongArgumentCount, e.span, "a positional argument behind a named one").help(help));
+        }
+        late.is_none()
     }
 
     fn positional(&mut self, id: PouId, position: usize, at: Span, call: Span) -> Option<usize> {
