@@ -1,6 +1,6 @@
 //! Every diagnostic and fault code, once. A code is for ever: never reused, never renumbered.
 //!
-//! P0 text, P1 names, P2 types, P3 program rules, P4 tasks and configuration; N g-code; C project and image files; F runtime faults, whose number is
+//! P0 text, P1 names, P2 types, P3 program rules, P4 tasks and configuration; P5 Instruction List; N g-code; C project and image files; F runtime faults, whose number is
 //! the ErrorID word of a function block in hexadecimal. Each has a page in `docs/codes/`, which `takt explain` prints.
 
 use super::Severity;
@@ -109,6 +109,16 @@ codes! {
     P4001 UnknownTask "no task has this name";
     P4002 NoProgram "nothing to run: the project has no PROGRAM";
     P4003 BadTask "this task can't be scheduled";
+
+    // --- P5 Instruction List ---
+    P5001 UnknownInstruction "no instruction or function has this name";
+    P5002 InstructionOperand "the operand of the instruction is missing or one too many";
+    P5003 ResultUndefined "there is no current result here";
+    P5004 ResultDiffers "the current results of the ways to this label differ in type";
+    P5005 UnknownLabel "no label of this name can be reached from here";
+    P5006 DuplicateLabel "this label stands twice in one body";
+    P5007 NotInParentheses "this instruction can't stand inside of parentheses";
+    P5008 NoInputOperator "the instance has no such input operator";
 
     // --- N g-code ---
     N0001 BadCharacter "this character is not part of a g-code block";

@@ -62,6 +62,10 @@ pub(super) fn addresses<'t>(body: &'t [ast::Stmt], on: &mut dyn FnMut(&'t ast::A
                 todo.extend(body);
             }
             StmtKind::Return(Some(e)) | StmtKind::Expression(e) => exprs.push(e),
+            StmtKind::Instructions(lines) => {
+                exprs.extend(lines.iter().filter_map(|l| l.instr.as_ref()).flat_map(|i| i.expressions()))
+            }
+            StmtKind::Label(_) | StmtKind::Jump(_) => {}
             StmtKind::Exit | StmtKind::Continue | StmtKind::Return(None) | StmtKind::Empty | StmtKind::Error => {}
         }
         expression_addresses(exprs, on);

@@ -140,6 +140,17 @@ impl<'a> Builder<'a> {
         Some(result)
     }
 
+    /// Counts a level of nesting, as [`Self::deeper`] does; false and a report if that is too deep.
+    pub fn depth_enter(&mut self, span: Span) -> bool {
+        let fine = self.deeper(span, |_| ()).is_some();
+        self.depth += u32::from(fine);
+        fine
+    }
+    /// Pairs with a [`Self::depth_enter`] that gave true.
+    pub fn depth_leave(&mut self) {
+        self.depth -= 1;
+    }
+
     /// Counts initial values; false and a report if there are too many of them.
     pub fn charge(&mut self, leaves: usize, span: Span) -> bool {
         let before = self.leaves;

@@ -234,7 +234,15 @@ pub enum StmtKind {
     Exit,
     Continue,
     Return,
+    /// A place that the list's own statements, and those nested in them, can jump to. Unique in the unit.
+    Label(LabelId),
+    /// To a label of this list or of one around it.
+    Jump(LabelId),
 }
+
+/// A label of a unit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct LabelId(pub u32);
 
 /// An output that a call hands back.
 #[derive(Debug)]

@@ -19,6 +19,8 @@ pub(super) struct Scope {
     pub values: Vec<(String, TypeId, i128)>,
     /// Variables that must not be written, with the reason.
     pub read_only: HashMap<VarId, ReadOnly>,
+    /// Labels of the body.
+    pub labels: super::label::Labels,
     /// Loops around the current statement.
     pub loops: u32,
     /// Control variables of the FOR loops around the current statement.

@@ -12,9 +12,11 @@ use takt_image::{Elementary, TypeId};
 impl Builder<'_> {
     /// A list of statements; what was wrong is left out.
     pub fn statements(&mut self, list: &[ast::Stmt]) -> Vec<Stmt> {
+        let labels = self.open_labels(list);
         let mut out = Vec::with_capacity(list.len());
         for s in list {
             match &s.kind {
+                ast::StmtKind::Instructions(lines) => out.append(&mut self.instructions(lines, s.span)),
                 ast::StmtKind::Chain { targets, value } => out.append(&mut self.chain(targets, value, s.span)),
                 ast::StmtKind::Return(Some(value)) => {
                     out.extend(self.returned(value, s.span));
@@ -22,6 +24,9 @@ impl Builder<'_> {
                 }
                 _ => out.extend(self.deeper(s.span, |b| b.statement(s)).flatten()),
             }
+        }
+        if labels {
+            self.close_labels();
         }
         out
     }
@@ -55,7 +60,11 @@ impl Builder<'_> {
                 self.no_effect(e);
                 return None;
             }
-            ast::StmtKind::Chain { .. } | ast::StmtKind::Empty | ast::StmtKind::Error => return None,
+            ast::StmtKind::Label(name) => self.label_statement(name)?,
+            ast::StmtKind::Jump(name) => self.jump_statement(name)?,
+            ast::StmtKind::Instructions(_) | ast::StmtKind::Chain { .. } | ast::StmtKind::Empty | ast::StmtKind::Error => {
+                return None;
+            }
         };
         Some(Stmt { kind: self.hoist_enable(kind, s.span), span: s.span })
     }

@@ -384,6 +384,12 @@ pub enum StmtKind {
     Return(Option<Expr>),
     /// An expression that is no call (vendor): evaluated, and its value forgotten.
     Expression(Expr),
+    /// `name:` (vendor).
+    Label(Name),
+    /// `JMP name;` (vendor).
+    Jump(Name),
+    /// A body in Instruction List: the only statement of its list.
+    Instructions(Vec<super::il::Line>),
     /// A lone `;`.
     Empty,
     /// Something was wrong here and has been reported.

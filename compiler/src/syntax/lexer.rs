@@ -120,6 +120,8 @@ pub(crate) enum Tok {
     #[token("*=")]
     #[token("/=")]
     CUpdate,
+    /// The `?` of `ST?` (Instruction List).
+    Question,
     /// Something that has been reported.
     Error,
     Eof,
@@ -177,6 +179,7 @@ pub(crate) fn lex(text: &str, source: SourceId, profile: Profile, report: &mut R
             Ok(Tok::CComment) => scan.comment(b'/', b'/'),
             Ok(Tok::Pragma) => scan.pragma(list.len()),
             Ok(kind) => Some(scan.finish(kind)),
+            Err(()) if scan.is_attempt(list.last()) => Some(Tok::Question),
             Err(()) => scan.unexpected(),
         };
         let Some(kind) = kind.filter(|_| scan.conditional.is_active()) else { continue };
@@ -410,6 +413,14 @@ impl Scan<'_, '_, '_> {
             let diag = Diag::new(Code::Expected, Span::new(self.source, end, end), "the file ends inside of an {IF}");
             self.report.push(diag.message("expected {END_IF}").help("close it with {END_IF}"));
         }
+    }
+
+    /// True at the `?` of `ST?`.
+    fn is_attempt(&self, before: Option<&Token>) -> bool {
+        let start = self.logos.span().start;
+        let word = before.filter(|t| t.kind == Tok::Word && t.end as usize == start).map(|t| t.start as usize..start);
+        let word = word.and_then(|range| self.logos.source().get(range));
+        self.logos.slice() == "?" && word.is_some_and(|w| w.eq_ignore_ascii_case("ST"))
     }
 
     /// One message for a run of characters that start nothing.

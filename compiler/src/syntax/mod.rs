@@ -3,6 +3,7 @@
 
 pub mod ast;
 mod conditional;
+pub mod il;
 mod keyword;
 mod lexer;
 mod literal;
@@ -11,4 +12,5 @@ mod report;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use parser::il::nearest_operator;
 pub use parser::parse;

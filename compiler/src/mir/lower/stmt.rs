@@ -5,11 +5,17 @@ use crate::hir::model::*;
 use crate::mir::model::*;
 
 impl Unit<'_, '_> {
-    /// Statements in order; what stands behind an EXIT, CONTINUE or RETURN is left out.
+    /// Statements in order; what stands behind an EXIT, CONTINUE, RETURN or jump is left out, up to the next label. Labels inside
+    /// of what is left out are reached from there alone.
     pub fn statements(&mut self, body: &[Stmt]) {
         for stmt in body {
+            if let StmtKind::Label(label) = stmt.kind {
+                let block = self.label(label);
+                self.f.jump(block);
+                self.f.enter(block);
+            }
             if !self.f.is_open() {
-                return;
+                continue;
             }
             let temporaries = self.f.mark();
             self.at_line(stmt.span);
@@ -35,7 +41,18 @@ impl Unit<'_, '_> {
             StmtKind::Exit => self.leave_loop(|ends| ends.exit),
             StmtKind::Continue => self.leave_loop(|ends| ends.next),
             StmtKind::Return => self.f.jump(self.exit),
+            StmtKind::Label(_) => {}
+            StmtKind::Jump(label) => {
+                let block = self.label(*label);
+                self.f.jump(block);
+            }
         }
+    }
+
+    /// The block that begins at a label.
+    fn label(&mut self, label: LabelId) -> BlockId {
+        let f = &mut self.f;
+        *self.labels.entry(label).or_insert_with(|| f.block())
     }
 
     fn call_statement(&mut self, e: &Expr) {

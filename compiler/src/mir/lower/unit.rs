@@ -55,6 +55,8 @@ pub struct Unit<'p, 'h> {
     pub counters: Vec<Counter>,
     /// Registers of FOR variables in memory; loops of one variable are never within each other.
     pub counter_registers: HashMap<VarId, Local>,
+    /// Blocks of the labels met so far, at the label itself or at a jump to it.
+    pub labels: HashMap<LabelId, BlockId>,
     /// Where RETURN goes.
     pub exit: BlockId,
     params: Vec<Local>,
@@ -106,6 +108,7 @@ impl<'p, 'h> Unit<'p, 'h> {
             loops: Vec::new(),
             counters: Vec::new(),
             counter_registers: HashMap::new(),
+            labels: HashMap::new(),
             exit,
             params: Vec::new(),
             outputs: Vec::new(),

@@ -53,7 +53,7 @@ fn statement<'a>(stmt: &'a Stmt, on: &mut dyn FnMut(Event<'a>)) {
             expression(condition, on);
             statements(body, on);
         }
-        StmtKind::Exit | StmtKind::Continue | StmtKind::Return => {}
+        StmtKind::Exit | StmtKind::Continue | StmtKind::Return | StmtKind::Label(_) | StmtKind::Jump(_) => {}
     }
 }
 

@@ -125,6 +125,14 @@ impl Parser<'_> {
         Some(ty)
     }
 
+    /// The statements of a unit, a method or an action: ST, or one statement with all instructions.
+    pub(super) fn body_statements(&mut self) -> Vec<Stmt> {
+        match self.instruction_list() {
+            Some(list) => vec![list],
+            None => self.statements(false),
+        }
+    }
+
     /// Statements up to the end of the unit.
     fn pou_body(&mut self, sections: &mut Vec<VarSection>) -> Vec<Stmt> {
         let mut body = Vec::new();
@@ -132,7 +140,7 @@ impl Parser<'_> {
             if self.unsupported_body() {
                 continue;
             }
-            body.append(&mut self.statements(false));
+            body.append(&mut self.body_statements());
             if self.at_section() && self.kw() != Kw::VarGlobal {
                 self.late_section(sections);
             } else if !self.unsupported_body() {

@@ -175,14 +175,44 @@ impl Parser<'_> {
         self.nth(1).kind == Tok::LParen && self.nth(2).kind == Tok::Word && self.nth(3).kind == Tok::Assign
     }
 
+    /// An operand of an instruction: a literal or a variable, no operators and no calls.
+    pub(super) fn operand(&mut self) -> Expr {
+        let start = self.here();
+        let op = if self.at(Tok::Minus) { UnaryOp::Neg } else { UnaryOp::Plus };
+        let signed = self.eat(Tok::Minus) || self.eat(Tok::Plus);
+        if !self.enter() {
+            self.leave();
+            return error(start);
+        }
+        let mut expr = self.postfix_of(false).expr;
+        self.leave();
+        if signed {
+            match fold_sign(op, &expr) {
+                Some(literal) => expr = Expr { kind: ExprKind::Literal(literal), span: start.to(expr.span) },
+                None if !self.lost => {
+                    let diag = Diag::new(Code::Expected, start, "a sign belongs to a number");
+                    self.soft(diag.message("expected an operand").help("compute it by instructions of its own"));
+                    self.lost = true;
+                }
+                None => {}
+            }
+        }
+        expr
+    }
+
     fn postfix(&mut self) -> Tree {
+        self.postfix_of(true)
+    }
+
+    /// `calls`: a parenthesis calls what stands before it.
+    fn postfix_of(&mut self, calls: bool) -> Tree {
         let mut tree = self.primary();
         let callable = !matches!(tree.expr.kind, ExprKind::Literal(_));
         while !self.lost && callable {
             tree = match self.kind() {
                 Tok::Dot => self.member(tree),
                 Tok::LBracket => self.index(tree),
-                Tok::LParen => self.call(tree),
+                Tok::LParen if calls => self.call(tree),
                 Tok::Caret => {
                     self.bump();
                     let span = self.since(tree.expr.span);

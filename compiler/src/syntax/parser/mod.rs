@@ -7,6 +7,7 @@ mod config;
 mod cursor;
 mod decl;
 mod expr;
+pub(crate) mod il;
 mod init;
 mod literal;
 mod loops;

@@ -33,7 +33,7 @@ impl Parser<'_> {
     }
 
     /// True at a part of a unit that is no statement.
-    fn starts_unit_part(&self) -> bool {
+    pub(super) fn starts_unit_part(&self) -> bool {
         let kw = self.kw();
         let part =
             matches!(kw, Kw::Action | Kw::Method | Kw::Property | Kw::Step | Kw::InitialStep | Kw::Transition | Kw::VarStat);
@@ -105,10 +105,8 @@ impl Parser<'_> {
             Kw::Exit => self.one_word(StmtKind::Exit),
             Kw::Continue => self.one_word(StmtKind::Continue),
             Kw::Return => self.return_statement(),
-            Kw::Jmp if self.nth(1).kind == Tok::Word => self.unsupported_statement("JMP"),
-            _ if self.at(Tok::Word) && self.nth(1).kind == Tok::Colon && self.nth(2).kind != Tok::Eq => {
-                self.unsupported_statement("a label")
-            }
+            Kw::Jmp if self.nth(1).kind == Tok::Word => self.jump_statement(),
+            _ if self.at(Tok::Word) && self.nth(1).kind == Tok::Colon && self.nth(2).kind != Tok::Eq => self.label_statement(),
             _ => self.assign_or_call(),
         }
     }
@@ -124,14 +122,19 @@ impl Parser<'_> {
         StmtKind::Return((!alone).then(|| self.expr()))
     }
 
-    fn unsupported_statement(&mut self, what: &str) -> StmtKind {
-        self.unsupported_here(what);
+    /// `JMP label;` (vendor).
+    fn jump_statement(&mut self) -> StmtKind {
+        self.codesys_form("JMP");
         self.bump();
-        if !self.eat(Tok::Colon) {
-            self.bump();
-        }
-        self.lost = !self.at(Tok::Semi) && !self.is_first_on_line();
-        StmtKind::Error
+        StmtKind::Jump(self.name())
+    }
+
+    /// `label:` (vendor).
+    fn label_statement(&mut self) -> StmtKind {
+        self.codesys_form("a label");
+        let name = self.name();
+        self.bump();
+        StmtKind::Label(name)
     }
 
     /// What ends a statement. After END_xxx it may be left out (vendor).
@@ -143,7 +146,7 @@ impl Parser<'_> {
             return;
         }
         if self.prev().kind == Tok::Colon {
-            return; // a label, which has been reported
+            return; // a label
         }
         if self.is_first_on_line() || self.kw().ends_statements() || self.kw().opens_statement() || self.at_end() {
             let diag = self.missing_diag("`;`").message("expected `;` at the end of the statement");

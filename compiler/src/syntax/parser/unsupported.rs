@@ -18,9 +18,6 @@ const CONSTRUCTS: [(Kw, Kw); 8] = [
     (Kw::Resource, Kw::EndResource),
 ];
 
-/// First words of instructions of Instruction List.
-const INSTRUCTIONS: [&str; 12] = ["LD", "LDN", "ST", "STN", "CAL", "CALC", "CALCN", "ANDN", "ORN", "XORN", "JMPC", "RETC"];
-
 impl Parser<'_> {
     pub(super) fn unsupported_diag(&self, what: &str) -> Diag {
         let diag = Diag::new(Code::NotSupportedYet, self.here(), "not in this version");
@@ -79,24 +76,8 @@ impl Parser<'_> {
                 self.bump();
                 true
             }
-            Kw::None if self.is_instruction() => {
-                let diag = self.unsupported_diag("Instruction List in a text file");
-                self.soft(diag.help("write the body in ST"));
-                self.skip_body();
-                true
-            }
             _ => false,
         }
-    }
-
-    /// `LD x` or `label: LD x`, and no `;`, `:=` or the like behind the first word.
-    fn is_instruction(&self) -> bool {
-        let first = if self.nth(1).kind == Tok::Colon { 2 } else { 0 };
-        let word = self.text_of(self.nth(first));
-        let next = self.nth(first + 1).kind;
-        let operand =
-            matches!(next, Tok::Word | Tok::Int | Tok::Real | Tok::Based | Tok::Direct | Tok::Duration | Tok::TypePrefix);
-        self.at(Tok::Word) && operand && INSTRUCTIONS.iter().any(|i| i.eq_ignore_ascii_case(word))
     }
 
     /// To the end of the unit.
