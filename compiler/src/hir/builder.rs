@@ -5,7 +5,7 @@ use super::image::ImagePlan;
 use super::model::*;
 use super::scope::Scope;
 use super::symbols::Symbols;
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeMap, HashMap, HashSet};
 use takt_base::{Code, Diag, Profile, Severity, Sink, Sources, Span};
 use takt_image::types::{Record, Type};
 use takt_image::{Elementary, TypeId};
@@ -44,6 +44,10 @@ pub(super) struct Builder<'a> {
     pub guards_next: bool,
     /// A call with EN or ENO is being put together: it stays for the run time, where it tells its errors by ENO.
     pub unfolded: bool,
+    /// Program instances of all resources.
+    pub planned: Vec<super::instance::Planned>,
+    /// Initial values of program instances that VAR_CONFIG changes.
+    pub values: BTreeMap<Root, Const>,
     leaves: usize,
     depth: u32,
 }
@@ -71,6 +75,8 @@ impl<'a> Builder<'a> {
             bit_members: HashMap::new(),
             guards_next: false,
             unfolded: false,
+            planned: Vec::new(),
+            values: BTreeMap::new(),
             leaves: 0,
             depth: 0,
         }
