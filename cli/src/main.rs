@@ -16,6 +16,7 @@ mod json;
 mod progress;
 mod project;
 mod report;
+mod retain;
 mod session;
 mod watch;
 

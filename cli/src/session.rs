@@ -132,6 +132,11 @@ impl Session {
         Resource::new(self.image.clone(), engine, Box::new(host), options).map_err(refused)
     }
 
+    /// Where `takt run` keeps retained values.
+    pub fn retain_file(&self) -> PathBuf {
+        self.root.join(self.keys.run.retain.as_deref().unwrap_or(".takt/retain"))
+    }
+
     /// Run options of the project file.
     pub fn options(&self) -> Result<Options, Problem> {
         let run = &self.keys.run;

@@ -68,7 +68,7 @@ fn finish(hir: Hir, sources: &Sources, project: Project, sink: &mut Sink) -> Opt
     assert!(problems.is_empty(), "the lowering broke a rule: {}", problems[0]);
     let code = if project.native { codegen::emit(&lowered.module) } else { Ok(Code::default()) };
     let code = code.map_err(|why| sink.push(too_large_for_code(sources, &why))).ok()?;
-    let Lowered { module, memory, init, symbols, tasks } = lowered;
+    let Lowered { module, memory, init, symbols, retained, tasks } = lowered;
     let image = Image {
         name: project.name,
         target: if project.native { Target::X86_64V2 } else { Target::None },
@@ -83,6 +83,7 @@ fn finish(hir: Hir, sources: &Sources, project: Project, sink: &mut Sink) -> Opt
         lines: code.lines,
         files: module.files.clone(),
         tasks,
+        retained,
         attachments: project.attachments,
     };
     Some((image, module))

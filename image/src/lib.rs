@@ -14,6 +14,7 @@ pub mod literal_time;
 pub mod memory;
 pub mod natives;
 pub mod path;
+pub mod retain;
 pub mod traps;
 pub mod types;
 pub mod validate;

@@ -24,6 +24,7 @@ pub fn validate(image: &Image) -> Check {
     types(&image.types)?;
     init(image)?;
     symbols(image)?;
+    retained(image)?;
     natives(image)?;
     code(image)?;
     ensure(image.tasks.len() <= MAX_TASKS, || format!("there are more than {MAX_TASKS} tasks"))?;
@@ -179,6 +180,13 @@ fn symbols(image: &Image) -> Check {
     image.symbols.iter().try_for_each(|s| {
         ensure(image.types.try_get(s.ty).is_some(), || format!("`{}` has no type", s.name))?;
         ensure(place(image, s.place, s.ty), || format!("`{}` does not lie inside the memory", s.name))
+    })
+}
+
+fn retained(image: &Image) -> Check {
+    image.retained.iter().try_for_each(|r| {
+        ensure(image.types.try_get(r.ty).is_some(), || format!("`{}` has no type", r.path))?;
+        ensure(place(image, r.place, r.ty), || format!("`{}` does not lie inside the memory", r.path))
     })
 }
 

@@ -155,6 +155,9 @@ codes! {
     F0001 ParameterOutOfRange "a parameter is out of range";
     F0002 UnknownReference "the axis or channel reference is not one of this controller";
     F0003 LimitExceeded "the target is outside of the software limits";
+    F0006 RetainDamaged "the file of retained values is damaged" Warning;
+    F0007 RetainChanged "a retained variable has changed its type" Warning;
+    F0008 RetainFile "the retained values can't be stored" Warning;
     F0100 NotPowered "the axis is not powered";
     F0101 WrongState "the command is not allowed in this state";
     F0102 NotHomed "the axis is not homed";

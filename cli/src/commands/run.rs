@@ -3,13 +3,14 @@
 use crate::progress::{self, Display, Reporter};
 use crate::project::{self, Problem};
 use crate::session::{EngineKind, Session, with_stimulus};
-use crate::{Status, duration, report};
+use crate::{Status, duration, report, retain};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc;
 use std::time::Duration;
 use takt_base::{Code, Nanos};
+use takt_image::retain::Start;
 use takt_motion::machine::Background;
 use takt_runtime::realtime::{Request, enter, on_program_thread};
 use takt_runtime::{Monotonic, Progress};
@@ -30,6 +31,9 @@ pub struct Args {
     /// Write the commanded and actual path
     #[arg(long, value_name = "FILE.svg")]
     picture: Option<PathBuf>,
+    /// Start RETAIN variables from their initial values; PERSISTENT ones keep theirs
+    #[arg(long)]
+    cold: bool,
     #[command(flatten)]
     profile: super::Profile,
 }
@@ -89,7 +93,11 @@ fn real_time(
 ) -> Result<Outcome, Problem> {
     let machine = session.machine(Background::Thread);
     let resource = session.resource(machine.clone(), EngineKind::Native, session.options()?)?;
+    let start = if args.cold { Start::Cold } else { Start::Warm };
+    let resource = retain::restore(&session.image, resource, &session.retain_file(), start);
     let mut resource = with_stimulus(resource, session.stimulus(None)?);
+    let (mut sampler, keeper) = retain::keep(&session.image, session.retain_file()).unzip();
+    let epoch = resource.program_time();
     let stop_when = session.stop_when()?;
     let deadline = args.duration.or(session.duration()?);
     let real_time = enter(&Request::default());
@@ -98,8 +106,14 @@ fn real_time(
     let image = &session.image;
     resource.run_until(&mut clock, deadline, stop, &mut |scan, memory| {
         reporter.send(scan, &machine.borrow());
+        if let Some(sampler) = &mut sampler {
+            sampler.sample(scan.now, epoch + scan.now, memory);
+        }
         !report::is_true(image, stop_when.as_ref(), memory)
     });
+    if let Some(keeper) = keeper {
+        keeper.finish(image, &resource);
+    }
     let end = machine.borrow().report();
     resource.stop(&mut clock);
     report::faults(&resource);

@@ -3,11 +3,12 @@
 use crate::project::Problem;
 use crate::session::{EngineKind, Session, with_stimulus};
 use crate::watch::Watch;
-use crate::{Status, duration, report};
+use crate::{Status, duration, report, retain};
 use serde_json::json;
 use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
 use takt_base::Nanos;
+use takt_image::retain::Start;
 use takt_image::value::Patch;
 use takt_motion::machine::Background;
 use takt_runtime::{FaultReport, Options, Resource, Stimulus, Virtual, When};
@@ -48,6 +49,12 @@ pub struct Args {
     /// Write the set points and actual positions of the axes
     #[arg(long, value_name = "FILE.csv")]
     trace: Option<PathBuf>,
+    /// Start with the retained values of this file, and write them there at the end
+    #[arg(long, value_name = "FILE")]
+    retain: Option<PathBuf>,
+    /// With --retain: a cold start, which keeps PERSISTENT values alone
+    #[arg(long, requires = "retain")]
+    cold: bool,
     #[command(flatten)]
     profile: super::Profile,
 }
@@ -82,8 +89,17 @@ fn simulate(args: &Args, session: &Session) -> Result<Status, Problem> {
     let engine = if args.engine == "interp" { EngineKind::Interpreter } else { EngineKind::Native };
     let options = Options { measure: false, ..session.options()? };
     let resource = session.resource(machine.clone(), engine, options)?;
+    let start = if args.cold { Start::Cold } else { Start::Warm };
+    let resource = match &args.retain {
+        Some(file) => retain::restore(&session.image, resource, file, start),
+        None => resource,
+    };
     let mut resource = with_stimulus(resource, stimulus(args, session)?);
     drive(args, session, &watch, &mut resource)?;
+    if let Some(file) = &args.retain {
+        let failed = |e| Problem::File(takt_base::Code::FileError, format!("can't write {}: {e}", file.display()));
+        retain::save(&session.image, &resource, file).map_err(failed)?;
+    }
     if let Some(path) = &args.trace {
         report::write_trace(path, machine.borrow().trace(), &session.machine)?;
     }

@@ -146,6 +146,11 @@ impl<'a> Builder<'a> {
         };
         self.check_bound(pou, decl.name.span);
         let mut program = instance(decl.name.text.clone(), pou);
+        program.keep = match decl.retain {
+            Some(true) => Keep::Retain,
+            Some(false) => Keep::NonRetain,
+            None => Keep::Unsaid,
+        };
         program.init = self.values.remove(&program.root());
         for arg in &decl.connections {
             self.connect(&mut program, arg, decl.name.span);
@@ -229,7 +234,7 @@ impl<'a> Builder<'a> {
 }
 
 fn instance(name: String, pou: PouId) -> ProgramInstance {
-    ProgramInstance { name, pou, resource: 0, init: None, inputs: Vec::new(), outputs: Vec::new() }
+    ProgramInstance { name, pou, resource: 0, keep: Keep::Unsaid, init: None, inputs: Vec::new(), outputs: Vec::new() }
 }
 
 /// Reports every direct address in a configuration.

@@ -86,6 +86,8 @@ pub struct Var {
     pub storage: Storage,
     /// Value at the start of a call (functions, VAR_TEMP) or in a new instance; always complete.
     pub init: Const,
+    /// RETAIN and its kin.
+    pub keep: Keep,
     /// R_EDGE or F_EDGE, with the hidden BOOL field that holds the previous value of the actual input.
     pub edge: Option<(Edge, VarId)>,
     /// Declaration.
@@ -103,6 +105,38 @@ pub enum Role {
     Result,
     /// Made by the compiler.
     Hidden,
+}
+
+/// Whether a variable keeps its value over a restart (§10.4).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Keep {
+    /// Like what it is in.
+    #[default]
+    Unsaid,
+    NonRetain,
+    Retain,
+    /// Over a cold start too (vendor).
+    Persistent,
+}
+
+impl Keep {
+    /// That of a part that says `own`.
+    pub fn or(self, own: Keep) -> Keep {
+        if own == Keep::Unsaid { self } else { own }
+    }
+    /// The value is kept.
+    pub fn is_kept(self) -> bool {
+        matches!(self, Keep::Retain | Keep::Persistent)
+    }
+    /// As the qualifiers of a section say.
+    pub fn of(section: &crate::syntax::ast::VarSection) -> Keep {
+        match (section.constant, section.persistent, section.retain) {
+            (true, ..) | (_, false, Some(false)) => Keep::NonRetain,
+            (_, true, _) => Keep::Persistent,
+            (_, _, Some(true)) => Keep::Retain,
+            (_, _, None) => Keep::Unsaid,
+        }
+    }
 }
 
 /// Where a variable lives.
@@ -129,8 +163,8 @@ pub struct Global {
     pub init: Const,
     /// CONSTANT.
     pub constant: bool,
-    /// RETAIN.
-    pub retain: bool,
+    /// RETAIN and its kin.
+    pub keep: Keep,
     /// Declaration.
     pub span: Span,
 }
@@ -189,6 +223,8 @@ pub struct ProgramInstance {
     pub pou: PouId,
     /// Number of its resource.
     pub resource: u32,
+    /// PROGRAM RETAIN.
+    pub keep: Keep,
     /// Initial value of the whole instance, if VAR_CONFIG gives one to a part of it.
     pub init: Option<Const>,
     /// Copied before each run: input (or output) variable of the program, value.

@@ -194,7 +194,6 @@ impl<'a> Builder<'a> {
                 self.collect_global(section, decl, name, library);
             }
         }
-        self.check_retain_kept(section);
     }
 
     fn collect_global(&mut self, section: &ast::VarSection, decl: &'a ast::VarDecl, name: &ast::Name, library: bool) {
@@ -204,7 +203,7 @@ impl<'a> Builder<'a> {
             place: None,
             init: Const::Zero,
             constant: section.constant,
-            retain: section.retain == Some(true),
+            keep: Keep::of(section),
             span: name.span,
         });
         self.symbols.global_entries.push(GlobalEntry { decl, library, state: State::Pending });

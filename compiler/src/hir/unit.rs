@@ -70,7 +70,7 @@ impl Builder<'_> {
 
     fn push_var(&mut self, id: PouId, name: &ast::Name, ty: TypeId, role: Role, storage: Storage, init: Const) -> VarId {
         let init = if self.charge(constant::leaves(&init) - 1, name.span) { init } else { Const::Zero };
-        let var = Var { name: name.text.clone(), ty, role, storage, init, edge: None, span: name.span };
+        let var = Var { name: name.text.clone(), ty, role, storage, init, keep: Keep::Unsaid, edge: None, span: name.span };
         self.hir.pous[id].vars.push(var)
     }
 
@@ -122,6 +122,7 @@ impl Builder<'_> {
             _ => used.default.clone(),
         };
         self.push_var(id, name, used.ty, role, Storage::Local, init);
+        self.hir.pous[id].vars[var].keep = Keep::of(section);
         if matches!(role, Role::Input | Role::Output | Role::InOut) {
             self.hir.pous[id].params.push(var);
         }
@@ -220,7 +221,9 @@ impl Builder<'_> {
             let var = &self.hir.pous[id].vars[v];
             let Some((edge, _)) = var.edge else { continue };
             let name = ast::Name { text: format!("{}.edge", var.name), span: var.span };
+            let keep = var.keep;
             let memory = self.push_var(id, &name, bool, Role::Hidden, Storage::Local, Const::Zero);
+            self.hir.pous[id].vars[memory].keep = keep;
             self.hir.pous[id].vars[v].edge = Some((edge, memory));
         }
     }

@@ -15,11 +15,9 @@ impl Builder<'_> {
             self.report(Diag::new(Code::SectionNotAllowed, section.span, "VAR_GLOBAL in a unit").help(help));
         }
         let kept = matches!(section.kind, SectionKind::Var | SectionKind::Input | SectionKind::Output);
-        if section.retain.is_some() && (function || !kept) {
+        if (section.retain.is_some() || section.persistent) && (function || !kept) {
             let help = "RETAIN belongs to VAR, VAR_INPUT and VAR_OUTPUT of function blocks and programs, and to VAR_GLOBAL";
             self.report(Diag::new(Code::SectionNotAllowed, section.span, "nothing here is kept between calls").help(help));
-        } else {
-            self.check_retain_kept(section);
         }
         if section.constant && matches!(section.kind, SectionKind::InOut | SectionKind::Output) {
             self.error(Code::SectionNotAllowed, section.span, "outputs and in-outs can't be CONSTANT");

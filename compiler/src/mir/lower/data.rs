@@ -29,7 +29,7 @@ pub struct Data {
 }
 
 /// Memory map without data: the process image lies in front of it, so its offsets don't depend on the data.
-fn process_image(hir: &Hir) -> Option<MemoryMap> {
+pub fn process_image(hir: &Hir) -> Option<MemoryMap> {
     let [i, q, m] = hir.image_bytes;
     MemoryMap::new(i, q, m, 0, 0)
 }
@@ -196,7 +196,7 @@ pub fn symbols(hir: &Hir, data: &Data) -> Vec<Symbol> {
         ty: g.ty,
         place: *place,
         constant: g.constant,
-        retain: g.retain,
+        retain: g.keep.is_kept(),
     });
     let programs = hir.tasks.iter().zip(&data.instances).flat_map(|(t, offsets)| t.programs.iter().zip(offsets));
     globals.chain(programs.flat_map(|(p, offset)| program_symbols(hir, p, *offset))).collect()

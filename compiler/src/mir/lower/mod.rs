@@ -21,6 +21,7 @@ mod open;
 mod operator;
 mod place;
 mod pointer;
+mod retain;
 mod shape;
 mod stmt;
 mod task;
@@ -35,7 +36,7 @@ use lines::Lines;
 use std::collections::HashMap;
 use takt_base::index::IndexVec;
 use takt_base::{Diag, Sources};
-use takt_image::image::{Chunk, Symbol, Task};
+use takt_image::image::{Chunk, Retained, Symbol, Task};
 use takt_image::memory::MAX_MEMORY;
 use takt_image::{MemoryMap, NativeImport, Type};
 
@@ -50,6 +51,8 @@ pub struct Lowered {
     pub init: Vec<Chunk>,
     /// Named variables.
     pub symbols: Vec<Symbol>,
+    /// What keeps its value over a restart.
+    pub retained: Vec<Retained>,
     /// Tasks; their functions are indices into the module's.
     pub tasks: Vec<Task>,
 }
@@ -140,11 +143,12 @@ impl<'h> Program<'h> {
         if !self.diags.is_empty() {
             return Err(self.diags);
         }
+        let retained = retain::retained(self.hir, &self.data).map_err(|d| vec![d])?;
         let symbols = data::symbols(self.hir, &self.data);
         let Some((memory, init)) = self.data.finish(self.hir) else {
             return Err(vec![data::too_large(data::nowhere(), "the program")]);
         };
         (module.natives, module.lines, module.files) = (self.natives, self.lines.lines, self.lines.files);
-        Ok(Lowered { module, memory, init, symbols, tasks })
+        Ok(Lowered { module, memory, init, symbols, retained, tasks })
     }
 }
