@@ -38,6 +38,7 @@ traps! {
     NativePanic = 8 NativePanic;
     Memory = 9 MemoryFault;
     ForStep = 10 ForStepFault;
+    NullReference = 11 NullReference;
 }
 
 /// A trap with its place. Small and `Copy`: it is made on the cyclic side. `image.files`, `image.functions` give the names.

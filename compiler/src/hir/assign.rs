@@ -78,7 +78,7 @@ impl Builder<'_> {
             self.report(Diag::new(Code::NotAVariable, e.span, label).also(note.0, note.1).help(help));
             return None;
         }
-        if place.ty != ty {
+        if place.ty != ty && !self.derives(place.ty, ty) {
             let label = format!("{}, exactly {} wanted", self.show(place.ty), self.show(ty));
             let help = "a VAR_IN_OUT refers to the variable itself, so nothing can be converted";
             self.report(Diag::new(Code::TypeMismatch, e.span, label).also(note.0, note.1).help(help));
@@ -89,6 +89,9 @@ impl Builder<'_> {
 
     /// `target := value;`
     pub fn assign(&mut self, target: &ast::Expr, value: &ast::Expr) -> Option<StmtKind> {
+        if let Some(call) = self.property_write(target, value) {
+            return call;
+        }
         let Some(target) = self.writable(target) else {
             self.operand(value, None);
             return None;

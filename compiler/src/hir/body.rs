@@ -24,8 +24,11 @@ impl Builder<'_> {
                 "leave the body empty: it is provided by the controller",
             );
         }
-        let body = self.statements(&decl.body);
-        self.check_result_written(id);
+        let mut body = self.statements(&decl.body);
+        body.extend(self.inherited_body(id, decl));
+        if !self.is_signature(id) {
+            self.check_result_written(id);
+        }
         self.hir.pous[id].body = body;
         self.scope = outer;
     }
@@ -37,7 +40,7 @@ pub(super) fn addresses<'t>(body: &'t [ast::Stmt], on: &mut dyn FnMut(&'t ast::A
     while let Some(stmt) = todo.pop() {
         let mut exprs: Vec<&ast::Expr> = Vec::new();
         match &stmt.kind {
-            StmtKind::Assign { target, value } => exprs.extend([target, value]),
+            StmtKind::Assign { target, value } | StmtKind::Attempt { target, value } => exprs.extend([target, value]),
             StmtKind::Chain { targets, value } => exprs.extend(targets.iter().map(|t| &t.0).chain([value])),
             StmtKind::Call(e) => exprs.push(e),
             StmtKind::If { branches, otherwise } => {
@@ -74,7 +77,7 @@ pub(super) fn expression_addresses<'t>(mut todo: Vec<&'t ast::Expr>, on: &mut dy
             ExprKind::Binary(_, a, b) => todo.extend([&**a, &**b]),
             ExprKind::Index(a, list) => todo.extend(list.iter().chain([&**a])),
             ExprKind::Call { callee, args } => todo.extend(args.iter().filter_map(arg_expr).chain([&**callee])),
-            ExprKind::Literal(_) | ExprKind::Name(_) | ExprKind::Enumerator { .. } | ExprKind::Error => {}
+            ExprKind::Literal(_) | ExprKind::Name(_) | ExprKind::Enumerator { .. } | ExprKind::Null | ExprKind::Error => {}
         }
     }
 }

@@ -33,6 +33,8 @@ pub(super) struct Builder<'a> {
     pub image: ImagePlan,
     /// Who calls whom, and where. `None`: the connections of a program in the configuration.
     pub calls: Vec<(Option<PouId>, PouId, Span)>,
+    /// Types with their methods and heritage.
+    pub objects: super::objects::Table,
     leaves: usize,
     depth: u32,
 }
@@ -55,6 +57,7 @@ impl<'a> Builder<'a> {
             global_enums: Vec::new(),
             image: ImagePlan::default(),
             calls: Vec::new(),
+            objects: super::objects::Table::default(),
             leaves: 0,
             depth: 0,
         }

@@ -240,6 +240,9 @@ impl Builder<'_> {
         if o.expr.ty == to {
             return Ok(o.expr);
         }
+        if let Some(e) = self.to_interface(&o.expr, to) {
+            return Ok(e);
+        }
         if let Some(e) = self.widen_text(&o.expr, to)? {
             return Ok(e);
         }

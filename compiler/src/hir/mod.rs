@@ -17,6 +17,7 @@ mod expr;
 mod image;
 mod init;
 pub mod model;
+mod objects;
 mod place;
 mod scope;
 mod stmt;
@@ -38,6 +39,7 @@ pub fn build(files: &[(SourceId, ast::File)], sources: &Sources, sink: &mut Sink
     let mut builder = Builder::new(sources, sink);
     builder.collect(files);
     builder.declare_all();
+    builder.check_objects();
     builder.place_image();
     builder.bodies();
     builder.configure();

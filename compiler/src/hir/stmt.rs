@@ -25,6 +25,7 @@ impl Builder<'_> {
     fn statement(&mut self, s: &ast::Stmt) -> Option<Stmt> {
         let kind = match &s.kind {
             ast::StmtKind::Assign { target, value } => self.assign(target, value)?,
+            ast::StmtKind::Attempt { target, value } => self.attempt(target, value)?,
             ast::StmtKind::Call(e) => self.call_statement(e)?,
             ast::StmtKind::If { branches, otherwise } => {
                 let branches = branches.iter().map(|(c, body)| (self.condition(c), self.statements(body))).collect();
@@ -191,6 +192,12 @@ impl Builder<'_> {
             self.error(Code::NotCallable, e.span, "not a call");
             return None;
         };
+        if let Some(call) = self.body_call(callee, args, e.span) {
+            return call;
+        }
+        if let Some(o) = self.method_call(callee, args, e.span) {
+            return (!self.is_bad(&o)).then(|| StmtKind::Call(o.expr));
+        }
         if let Some(call) = self.block_call(callee, args, e.span) {
             return call;
         }

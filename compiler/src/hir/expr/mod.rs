@@ -25,6 +25,17 @@ impl Builder<'_> {
 
     fn operand_kind(&mut self, e: &ast::Expr, want: Option<TypeId>) -> Operand {
         match &e.kind {
+            ast::ExprKind::Null => self.null(e.span),
+            ast::ExprKind::Name(_) | ast::ExprKind::Member(..) if self.may_be_property(e) => match self.property_read(e) {
+                Some(o) => o,
+                None => self.plain_operand(e, want),
+            },
+            _ => self.plain_operand(e, want),
+        }
+    }
+
+    fn plain_operand(&mut self, e: &ast::Expr, want: Option<TypeId>) -> Operand {
+        match &e.kind {
             ast::ExprKind::Literal(l) => self.literal(l, e.span),
             ast::ExprKind::Name(n) => self.name(n, want),
             ast::ExprKind::Enumerator { ty, value } => self.enumerator(ty, value, e.span),
@@ -36,7 +47,7 @@ impl Builder<'_> {
             ast::ExprKind::Unary(op, a) => self.unary(*op, a, e.span, want),
             ast::ExprKind::Binary(op, a, b) => self.binary(*op, a, b, e.span, want),
             ast::ExprKind::Call { callee, args } => self.call(callee, args, e.span, want),
-            ast::ExprKind::Error => self.bad(e.span),
+            ast::ExprKind::Null | ast::ExprKind::Error => self.bad(e.span),
         }
     }
 

@@ -67,6 +67,15 @@ impl Unit<'_, '_> {
                 Some(Value::Scalar(l)) => l,
                 _ => unreachable!("a function with a scalar result"),
             },
+            ExprKind::CallMethod(c) => match self.call_method(c, e.span) {
+                Some(Value::Scalar(l)) => l,
+                _ => unreachable!("a method with a scalar result"),
+            },
+            ExprKind::AddressOf(p) => {
+                let addr = self.memory(p);
+                self.f.address(addr)
+            }
+            ExprKind::OfClass(a, classes) => self.of_class(a, classes),
             ExprKind::Intrinsic(i, args) => match self.intrinsic(*i, args, e.ty) {
                 Value::Scalar(l) => l,
                 _ => unreachable!("an intrinsic with a scalar result"),
@@ -166,6 +175,10 @@ impl Unit<'_, '_> {
                 Value::Text(t) => t,
                 _ => unreachable!("a native with a string result"),
             },
+            ExprKind::CallMethod(c) => match self.call_method(c, e.span) {
+                Some(Value::Text(t)) => t,
+                _ => unreachable!("a method with a string result"),
+            },
             ExprKind::Call { pou, args } => match self.call(*pou, args, e.span) {
                 Some(Value::Text(t)) => t,
                 _ => unreachable!("a function with a string result"),
@@ -226,6 +239,10 @@ impl Unit<'_, '_> {
                 Value::Bytes(a) => a,
                 _ => unreachable!("an intrinsic with an aggregate result"),
             },
+            ExprKind::CallMethod(c) => match self.call_method(c, e.span) {
+                Some(Value::Bytes(a)) => a,
+                _ => unreachable!("a method with an aggregate result"),
+            },
             ExprKind::Call { pou, args } => match self.call(*pou, args, e.span) {
                 Some(Value::Bytes(a)) => a,
                 _ => unreachable!("a function with an aggregate result"),
@@ -263,7 +280,7 @@ impl Unit<'_, '_> {
                 let source = Text { addr: from, capacity: from_capacity, unit };
                 self.copy_text(Text { addr: to, capacity, unit }, source);
             }
-            _ => self.f.emit(Op::CopyBytes { to, from, size: self.hir.types.layout(ty).size }),
+            _ => self.copy_bytes(to, from, ty),
         }
     }
 
@@ -275,7 +292,7 @@ impl Unit<'_, '_> {
                 self.copy_text(Text { addr, capacity, unit }, t);
             }
             (Value::Bytes(from), Loc::Memory(to), _) if from != to => {
-                self.f.emit(Op::CopyBytes { to, from, size: self.hir.types.layout(ty).size });
+                self.copy_bytes(to, from, ty);
             }
             _ => {}
         }

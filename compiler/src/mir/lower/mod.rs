@@ -16,6 +16,7 @@ mod interval;
 mod intrinsic;
 mod lines;
 mod native;
+mod object;
 mod operator;
 mod place;
 mod shape;

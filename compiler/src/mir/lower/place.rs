@@ -43,6 +43,7 @@ impl Unit<'_, '_> {
     fn base(&mut self, p: &Place) -> (Loc, TypeId) {
         match p.base {
             Base::Var(v) => (self.home(v), self.var(v).ty),
+            Base::This => (Loc::Memory(self.this.expect("only types have instances")), self.this_type()),
             Base::Global(g) => (image_loc(self.program.data.globals[g]), self.hir.globals[g].ty),
             Base::Image(place) => (image_loc(place), p.ty),
         }

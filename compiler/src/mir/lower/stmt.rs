@@ -41,6 +41,7 @@ impl Unit<'_, '_> {
     fn call_statement(&mut self, e: &Expr) {
         match &e.kind {
             ExprKind::Call { pou, args } => _ = self.call(*pou, args, e.span),
+            ExprKind::CallMethod(c) => _ = self.call_method(c, e.span),
             _ => _ = self.operand(e),
         }
     }

@@ -313,15 +313,18 @@ impl Parser<'_> {
                 self.bump();
                 return Tree::leaf(Expr { kind: ExprKind::Literal(Literal::Bool(token.kw == Kw::True)), span });
             }
-            Kw::Null | Kw::Ref | Kw::This | Kw::Super if !self.is_used_as_name(token.kw) => {
-                self.unsupported_here(match token.kw {
-                    Kw::Null => "a reference (NULL)",
-                    Kw::Ref => "a reference (REF)",
-                    Kw::This => "object orientation (THIS)",
-                    _ => "object orientation (SUPER)",
-                });
+            Kw::Null if !self.is_used_as_name(token.kw) => {
                 self.bump();
-                self.eat(Tok::Caret);
+                ExprKind::Null
+            }
+            Kw::This | Kw::Super if !self.is_used_as_name(token.kw) => {
+                let name = self.bare_name();
+                self.eat(Tok::Caret); // vendor
+                ExprKind::Name(name)
+            }
+            Kw::Ref if !self.is_used_as_name(token.kw) => {
+                self.unsupported_here("a reference (REF)");
+                self.bump();
                 ExprKind::Error
             }
             kw if !kw.is_reserved() || self.is_used_as_name(kw) => ExprKind::Name(self.name()),

@@ -10,6 +10,7 @@ mod expr;
 mod init;
 mod literal;
 mod loops;
+mod object;
 mod recover;
 mod stmt;
 mod types;

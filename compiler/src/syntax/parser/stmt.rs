@@ -36,8 +36,8 @@ impl Parser<'_> {
     fn starts_unit_part(&self) -> bool {
         let kw = self.kw();
         let part =
-            matches!(kw, Kw::Action | Kw::Method | Kw::Property | Kw::Step | Kw::InitialStep | Kw::Transition | Kw::VarStat);
-        part && self.nth(1).kind == Tok::Word
+            matches!(kw, Kw::Action | Kw::Step | Kw::InitialStep | Kw::Transition | Kw::VarStat);
+        part && self.nth(1).kind == Tok::Word || self.starts_member()
     }
 
     /// True if the current word, keyword or not, is used as a name: `exit := TRUE`.
@@ -175,7 +175,10 @@ impl Parser<'_> {
             Tok::Assign => self.assign(target),
             Tok::Eq | Tok::CEq => self.equals_as_assign(target),
             Tok::CUpdate => self.update(target),
-            Tok::RefAssign => self.unsupported_assign("assignment attempt (?=)"),
+            Tok::RefAssign => {
+                self.bump();
+                StmtKind::Attempt { target, value: self.expr() }
+            }
             Tok::Word if self.set_or_reset().is_some() => self.chain(target),
             Tok::Word if self.is_ref_assign() => self.unsupported_assign("REF="),
             _ => self.call_statement(target),
