@@ -60,6 +60,9 @@ impl Builder<'_> {
             self.report(Diag::new(Code::ForVariable, span, "controls the loop around this statement").help(help));
             return false;
         }
+        if let Some(pou) = self.scope.pou {
+            self.objects.written.insert((pou, id));
+        }
         if self.scope.pou.is_some_and(|p| self.hir.pous[p].result == Some(id)) {
             self.scope.result_written = true;
         }

@@ -1,5 +1,6 @@
 //! Rules about whole units and the whole program: one rule, one file.
 
+mod bound;
 mod reach;
 mod recursion;
 mod result;
@@ -9,6 +10,7 @@ use super::builder::Builder;
 
 /// Rules that need all bodies. Runs last.
 pub(super) fn all(builder: &mut Builder) {
+    bound::check(builder);
     reach::mark(builder);
     recursion::check(builder);
 }

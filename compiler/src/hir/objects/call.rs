@@ -72,6 +72,9 @@ impl Builder<'_> {
         }
         let ty = self.type_unit(place.ty)?;
         if let Type::Reference { .. } = self.ty(place.ty) {
+            if let (Base::Var(v), [], Some(pou)) = (place.base, &place.path[..], self.scope.pou) {
+                self.objects.called.push((pou, v, base.span));
+            }
             let (ty_id, span) = (place.ty, base.span);
             let value = Expr { kind: ExprKind::Load(place), ty: ty_id, span };
             return Some(Some(Object { receiver: Receiver::Reference(value), ty, dynamic: true, is_super: false }));

@@ -39,6 +39,9 @@ pub(super) struct Table {
     pub var_access: HashMap<(PouId, VarId), (AccessSpec, PouId)>,
     /// An abstract type may stand here: it is not instantiated.
     pub abstract_allowed: bool,
+    /// Variables of units that were assigned or lent, and interface variables that were called.
+    pub written: HashSet<(PouId, VarId)>,
+    pub called: Vec<(PouId, VarId, Span)>,
     /// Who may call whom through a class number, and where.
     pub dynamic_calls: Vec<(Option<PouId>, PouId, Span)>,
 }
