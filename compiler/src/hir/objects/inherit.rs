@@ -37,7 +37,7 @@ impl Builder<'_> {
         let base = self.named_base(name, kinds, "extends")?;
         if !self.ensure_pou(base, name.span) {
             let label = format!("`{}` extends itself", decl.name.text);
-            self.error(Code::InheritanceCycle, name.span, label);
+            self.report(Diag::new(Code::InheritanceCycle, name.span, label).help("remove one EXTENDS; put what both need into a third type"));
             return None;
         }
         let modifiers = &self.symbols.pous[base].decl.objects.modifiers;
@@ -100,7 +100,7 @@ impl Builder<'_> {
                 list.push(base);
             } else {
                 let label = format!("`{}` extends itself", decl.name.text);
-                self.error(Code::InheritanceCycle, name.span, label);
+                self.report(Diag::new(Code::InheritanceCycle, name.span, label).help("remove one EXTENDS; put what both need into a third type"));
             }
         }
         self.objects.interfaces.insert(id, list);

@@ -77,6 +77,11 @@ impl Parser<'_> {
     }
 
     fn pou_head(&mut self, objects: &mut Objects) -> Option<Name> {
+        if self.starts_member() {
+            let diag = self.expected_diag("the name of the unit");
+            self.soft(diag);
+            return None;
+        }
         let name = self.declared_name("the name of the unit");
         self.heritage(objects);
         if self.lost {
