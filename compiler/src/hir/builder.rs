@@ -44,6 +44,8 @@ pub(super) struct Builder<'a> {
     pub guards_next: bool,
     /// A call with EN or ENO is being put together: it stays for the run time, where it tells its errors by ENO.
     pub unfolded: bool,
+    /// Types with their methods and heritage.
+    pub objects: super::objects::Table,
     leaves: usize,
     depth: u32,
 }
@@ -71,6 +73,7 @@ impl<'a> Builder<'a> {
             bit_members: HashMap::new(),
             guards_next: false,
             unfolded: false,
+            objects: super::objects::Table::default(),
             leaves: 0,
             depth: 0,
         }

@@ -20,6 +20,7 @@ mod init;
 mod label;
 mod lattice;
 pub mod model;
+mod objects;
 mod place;
 mod pointer;
 mod reference;
@@ -43,6 +44,7 @@ pub fn build(files: &[(SourceId, ast::File)], sources: &Sources, sink: &mut Sink
     let mut builder = Builder::new(sources, sink);
     builder.collect(files);
     builder.declare_all();
+    builder.check_objects();
     builder.place_image();
     builder.bodies();
     builder.configure();

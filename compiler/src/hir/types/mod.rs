@@ -87,12 +87,16 @@ impl Builder<'_> {
 
     fn instance_type(&mut self, id: PouId, at: Span) -> TypeUse {
         let pou = &self.hir.pous[id];
-        if pou.kind != PouKind::FunctionBlock {
+        if pou.kind == PouKind::Interface {
+            return self.interface_type(id, at);
+        }
+        if !matches!(pou.kind, PouKind::FunctionBlock | PouKind::Class) {
             let what = if pou.kind == PouKind::Program { "a PROGRAM" } else { "a FUNCTION" };
             let help = "only function blocks have instances; programs are listed in the CONFIGURATION";
             self.report(Diag::new(Code::UnknownType, at, what).message("this is not a type").help(help));
             return self.bad_type();
         }
+        self.check_instantiable(id, at);
         if !self.ensure_pou(id, at) {
             let label = format!("`{}` would contain itself", self.hir.pous[id].name);
             self.error(Code::RecursiveType, at, label);

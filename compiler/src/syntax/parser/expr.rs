@@ -353,12 +353,13 @@ impl Parser<'_> {
                 ExprKind::Null
             }
             Kw::This | Kw::Super if !self.is_used_as_name(token.kw) => {
-                self.unsupported_here(match token.kw {
-                    Kw::This => "object orientation (THIS)",
-                    _ => "object orientation (SUPER)",
-                });
+                let name = self.bare_name();
+                self.eat(Tok::Caret); // vendor
+                ExprKind::Name(name)
+            }
+            Kw::Ref if !self.is_used_as_name(token.kw) => {
+                self.unsupported_here("a reference (REF)");
                 self.bump();
-                self.eat(Tok::Caret);
                 ExprKind::Error
             }
             kw if !kw.is_reserved() || self.is_used_as_name(kw) => ExprKind::Name(self.name()),
