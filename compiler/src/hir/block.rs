@@ -40,7 +40,8 @@ impl Builder<'_> {
         let (Some(target), Some(id)) = (target.clone(), pou) else {
             if let Some(t) = target.filter(|t| t.place.ty != self.error) {
                 let label = format!("{}, not a function block", self.show(t.place.ty));
-                self.error(Code::NotCallable, callee.span, label);
+                let help = "functions and instances of function blocks are called; of a class its methods";
+                self.report(Diag::new(Code::NotCallable, callee.span, label).help(help));
             }
             args.iter().filter_map(super::body::arg_expr).for_each(|e| drop(self.operand(e, None)));
             return None;
