@@ -10,7 +10,8 @@ use std::sync::Arc;
 use takt_base::{Code, Nanos, Profile};
 use takt_compiler::driver::{self, Compilation, File};
 use takt_compiler::mir::{Interpreter, model::Module};
-use takt_image::{Engine, Image, encode};
+use takt_image::value::VarType;
+use takt_image::{Elementary, Engine, Image, encode};
 use takt_motion::machine::{Background, Machine, MachineConfig};
 use takt_runtime::{LoadError, NativeEngine, OnFault, Options, Resource, SimDriver, Stimulus};
 
@@ -51,9 +52,19 @@ pub fn compile(project: &Project) -> Result<Compilation, Problem> {
         name: project.name.clone(),
         files: std::iter::once(declarations).chain(sources).collect(),
         attachments: attachments(project),
-        interval: interval.map(|t| project::time("task.interval", Some(t), Nanos::ZERO)).transpose()?,
+        interval: interval.map(task_interval).transpose()?,
         native: true,
     }))
+}
+
+/// `task.interval`, which can't be zero.
+fn task_interval(text: &str) -> Result<Nanos, Problem> {
+    let interval = project::time("task.interval", Some(text), Nanos::ZERO)?;
+    if interval > Nanos::ZERO {
+        return Ok(interval);
+    }
+    let text = format!("takt.toml: task.interval = \"{text}\" is no period; write for example \"10ms\"");
+    Err(Problem::File(Code::BadProjectFile, text))
 }
 
 impl Session {
@@ -160,7 +171,22 @@ impl Session {
     /// The BOOL variable of `run.stop_when`.
     pub fn stop_when(&self) -> Result<Option<takt_image::path::Variable>, Problem> {
         let path = self.keys.run.stop_when.as_deref();
-        path.map(|p| takt_image::path::resolve(&self.image, p).map_err(|e| Problem::access(&e))).transpose()
+        path.map(|p| {
+            let variable = takt_image::path::resolve(&self.image, p).map_err(|e| Problem::access(&e))?;
+            if self.is_bool(&variable) {
+                return Ok(variable);
+            }
+            let text = format!("takt.toml: stop_when = \"{p}\" is not a BOOL; name a variable that becomes TRUE");
+            Err(Problem::File(Code::BadProjectFile, text))
+        })
+        .transpose()
+    }
+
+    fn is_bool(&self, v: &takt_image::path::Variable) -> bool {
+        match v.ty {
+            VarType::Declared(ty) => self.image.types.storage(ty) == Some(Elementary::Bool),
+            VarType::Direct(e) => e == Elementary::Bool,
+        }
     }
 }
 

@@ -50,15 +50,19 @@ fn execute(args: &Args) -> Result<Status, Problem> {
     let (reporter, sights) = progress::channel();
     let (started, counters) = mpsc::channel();
     std::thread::scope(|scope| {
-        let runner = scope.spawn(|| on_program_thread(|| real_time(args, &session, &stop, reporter, &started)));
+        let runner = scope.spawn({
+            let (session, stop) = (&session, &stop);
+            // The sender goes with the run: an early end drops it, and nobody waits for counters that never come.
+            move || on_program_thread(move || real_time(args, session, stop, reporter, started))
+        });
         let mut display = Display::new(sights);
-        if let Ok(counters) = counters.recv_timeout(Duration::from_secs(10)) {
+        if let Ok(counters) = counters.recv() {
             watch(&mut display, &counters, || runner.is_finished());
         }
         let result = runner.join().unwrap_or_else(|_| Err(std::io::Error::other("the run ended in a panic")));
         display.close();
         let outcome = result.map_err(|e| Problem::thread(&e))??;
-        print!("{}", outcome.summary);
+        say!("{}", outcome.summary.trim_end());
         Ok(outcome.status)
     })
 }
@@ -81,7 +85,7 @@ fn real_time(
     session: &Session,
     stop: &AtomicBool,
     mut reporter: Reporter,
-    started: &mpsc::Sender<Arc<Progress>>,
+    started: mpsc::Sender<Arc<Progress>>,
 ) -> Result<Outcome, Problem> {
     let machine = session.machine(Background::Thread);
     let resource = session.resource(machine.clone(), EngineKind::Native, session.options()?)?;

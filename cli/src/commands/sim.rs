@@ -62,6 +62,10 @@ pub fn run(args: Args) -> Status {
 fn execute(args: &Args) -> Result<Status, Problem> {
     let Some(mut session) = Session::open(&args.project, args.profile.get())? else { return Ok(Status::Wrong) };
     if let Some(interval) = args.interval {
+        if interval <= Nanos::ZERO {
+            eprintln!("error: --interval 0s is no period; write for example --interval 10ms");
+            return Ok(Status::Usage);
+        }
         let tasks = session.image.tasks.iter_mut();
         tasks.filter_map(|t| t.interval.as_mut()).for_each(|i| *i = interval);
     }
@@ -102,7 +106,7 @@ fn drive(args: &Args, session: &Session, watch: &Watch, resource: &mut Resource)
     };
     let csv = args.format == "csv";
     if csv {
-        say!("scan,time_ns,{}", watch.names().collect::<Vec<_>>().join(","));
+        say!("scan,time_ns,{}", watch.names().map(cell).collect::<Vec<_>>().join(","));
     }
     if args.scans == Some(0) {
         return Ok(());

@@ -61,7 +61,8 @@ pub(super) fn addresses<'t>(body: &'t [ast::Stmt], on: &mut dyn FnMut(&'t ast::A
                 exprs.push(e);
                 todo.extend(body);
             }
-            StmtKind::Exit | StmtKind::Continue | StmtKind::Return | StmtKind::Empty | StmtKind::Error => {}
+            StmtKind::Return(Some(e)) | StmtKind::Expression(e) => exprs.push(e),
+            StmtKind::Exit | StmtKind::Continue | StmtKind::Return(None) | StmtKind::Empty | StmtKind::Error => {}
         }
         expression_addresses(exprs, on);
     }

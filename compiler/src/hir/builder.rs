@@ -1,5 +1,6 @@
 //! What all passes share: the program so far, the names, the current scope, and how to report.
 
+use super::convert::Notice;
 use super::image::ImagePlan;
 use super::model::*;
 use super::scope::Scope;
@@ -35,8 +36,8 @@ pub(super) struct Builder<'a> {
     pub calls: Vec<(Option<PouId>, PouId, Span)>,
     /// Only the place of a variable is wanted, which may be that of a global whose value is being resolved.
     pub place_only: bool,
-    /// Values that the conversion in progress cuts: where, from what, to what.
-    pub narrowings: Vec<(Span, TypeId, TypeId)>,
+    /// What is unusual about the conversion in progress.
+    pub notices: Vec<Notice>,
     /// Members that are one bit of their byte, by structure and index: which bit.
     pub bit_members: HashMap<(TypeId, u32), u32>,
     /// The next standard function has EN or ENO.
@@ -66,7 +67,7 @@ impl<'a> Builder<'a> {
             image: ImagePlan::default(),
             calls: Vec::new(),
             place_only: false,
-            narrowings: Vec::new(),
+            notices: Vec::new(),
             bit_members: HashMap::new(),
             guards_next: false,
             unfolded: false,

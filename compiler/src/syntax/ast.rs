@@ -380,7 +380,10 @@ pub enum StmtKind {
     },
     Exit,
     Continue,
-    Return,
+    /// `RETURN`, `RETURN value` (vendor).
+    Return(Option<Expr>),
+    /// An expression that is no call (vendor): evaluated, and its value forgotten.
+    Expression(Expr),
     /// A lone `;`.
     Empty,
     /// Something was wrong here and has been reported.

@@ -124,8 +124,8 @@ impl Kw {
         let types = matches!(self, Ldate | Ltod | LtimeOfDay | Ldt | LdateAndTime | Ltime | Char | Wchar);
         objects || types || matches!(self, Null | Ref | RefTo | Overlap | Continue)
     }
-    /// True for a reserved word that older dialects also take as a name, where it can mean nothing else.
-    pub(crate) fn is_name_in_older(self) -> bool {
+    /// True for a reserved word that the vendors also take as a name, where it can mean nothing else.
+    pub(crate) fn is_name_elsewhere(self) -> bool {
         use Kw::*;
         matches!(self, Action | Step | InitialStep | Transition | On | From | REdge | FEdge | Task | With | ReadOnly | ReadWrite)
     }

@@ -99,6 +99,11 @@ impl Parser<'_> {
         Tree::error(expr.span)
     }
 
+    /// True at an operator of this language other than `=`, which is a mistyped `:=` behind a variable.
+    pub(super) fn is_operator(&self) -> bool {
+        !self.at(Tok::Eq) && self.operator().is_some()
+    }
+
     fn operator(&self) -> Option<BinaryOp> {
         let token = self.peek();
         Some(match token.kind {

@@ -120,12 +120,8 @@ impl Parser<'_> {
 
     fn return_statement(&mut self) -> StmtKind {
         self.bump();
-        if !matches!(self.kind(), Tok::Semi | Tok::Eof) && !self.is_first_on_line() && !self.kw().ends_statements() {
-            let diag = self.unsupported_diag("RETURN with a value");
-            self.soft(diag.help("assign the value to the name of the function, then write RETURN;"));
-            self.expr();
-        }
-        StmtKind::Return
+        let alone = matches!(self.kind(), Tok::Semi | Tok::Eof) || self.is_first_on_line() || self.kw().ends_statements();
+        StmtKind::Return((!alone).then(|| self.expr()))
     }
 
     fn unsupported_statement(&mut self, what: &str) -> StmtKind {
@@ -167,9 +163,15 @@ impl Parser<'_> {
             self.no_statement();
             return StmtKind::Error;
         }
+        let start = self.pos;
         let target = self.variable();
         if self.lost {
             return StmtKind::Error;
+        }
+        let is_call = matches!(target.kind, ExprKind::Call { .. } | ExprKind::Error);
+        if self.profile.is_codesys() && !is_call && (self.at(Tok::Semi) || self.is_operator()) {
+            self.pos = start;
+            return StmtKind::Expression(self.expr());
         }
         match self.kind() {
             Tok::Assign => self.assign(target),

@@ -53,6 +53,10 @@ impl Parser<'_> {
     fn qualifiers(&mut self, section: &mut VarSection) {
         loop {
             match self.kw() {
+                Kw::Retain | Kw::NonRetain if section.retain.is_some_and(|r| r != (self.kw() == Kw::Retain)) => {
+                    let diag = self.expected_diag("one of RETAIN and NON_RETAIN").help("leave one of them out");
+                    self.soft(diag);
+                }
                 Kw::Constant => section.constant = true,
                 Kw::Retain => section.retain = Some(true),
                 Kw::NonRetain => section.retain = Some(false),
