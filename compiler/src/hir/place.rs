@@ -223,6 +223,10 @@ impl Builder<'_> {
             }
         };
         let index = record.fields.iter().position(|f| name.is(&f.name) && f.section != Section::Hidden);
+        let index = index.or_else(|| {
+            let pin = self.vendor_pin(base.place.ty, name)?;
+            record.fields.iter().position(|f| f.name == pin)
+        });
         let Some(index) = index else {
             let known = record.fields.iter().filter(|f| f.section != Section::Hidden).map(|f| f.name.clone()).collect();
             self.unknown(Code::UnknownMember, name, known);
