@@ -29,6 +29,7 @@ mod stmt;
 mod symbols;
 mod types;
 mod unit;
+mod vendor;
 
 #[cfg(test)]
 mod tests;

@@ -229,6 +229,10 @@ impl Builder<'_> {
             }
         };
         let index = record.fields.iter().rposition(|f| name.is(&f.name) && f.section != Section::Hidden);
+        let index = index.or_else(|| {
+            let pin = self.vendor_pin(base.place.ty, name)?;
+            record.fields.iter().rposition(|f| f.name == pin)
+        });
         let Some(index) = index else {
             let known = record.fields.iter().filter(|f| f.section != Section::Hidden).map(|f| f.name.clone()).collect();
             if self.method_without_call(base.place.ty, name) {
