@@ -41,7 +41,8 @@ impl<'a> Builder<'a> {
 
     fn default_configuration(&mut self) {
         let mine = self.hir.pous.enumerate().filter(|(id, p)| p.kind == PouKind::Program && !self.symbols.pous[*id].library);
-        let programs: Vec<_> = mine.map(|(pou, p)| instance(p.name.clone(), pou)).collect();
+        let mut programs: Vec<_> = mine.map(|(pou, p)| instance(p.name.clone(), pou)).collect();
+        programs.iter_mut().for_each(|p| p.init = self.values.remove(&p.root()));
         for program in &programs {
             let at = self.symbols.pous[program.pou].decl.name.span;
             self.check_bound(program.pou, at);
@@ -145,6 +146,7 @@ impl<'a> Builder<'a> {
         };
         self.check_bound(pou, decl.name.span);
         let mut program = instance(decl.name.text.clone(), pou);
+        program.init = self.values.remove(&program.root());
         for arg in &decl.connections {
             self.connect(&mut program, arg, decl.name.span);
         }
@@ -227,7 +229,7 @@ impl<'a> Builder<'a> {
 }
 
 fn instance(name: String, pou: PouId) -> ProgramInstance {
-    ProgramInstance { name, pou, inputs: Vec::new(), outputs: Vec::new() }
+    ProgramInstance { name, pou, resource: 0, init: None, inputs: Vec::new(), outputs: Vec::new() }
 }
 
 /// Reports every direct address in a configuration.
