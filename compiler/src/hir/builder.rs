@@ -44,6 +44,8 @@ pub(super) struct Builder<'a> {
     pub guards_next: bool,
     /// A call with EN or ENO is being put together: it stays for the run time, where it tells its errors by ENO.
     pub unfolded: bool,
+    /// Types with their methods and heritage.
+    pub objects: super::objects::Table,
     /// Program instances of all resources.
     pub planned: Vec<super::instance::Planned>,
     /// Initial values of program instances that VAR_CONFIG changes.
@@ -75,6 +77,7 @@ impl<'a> Builder<'a> {
             bit_members: HashMap::new(),
             guards_next: false,
             unfolded: false,
+            objects: super::objects::Table::default(),
             planned: Vec::new(),
             values: BTreeMap::new(),
             leaves: 0,

@@ -22,6 +22,7 @@ mod instance;
 mod label;
 mod lattice;
 pub mod model;
+mod objects;
 mod place;
 mod pointer;
 mod reference;
@@ -30,6 +31,7 @@ mod stmt;
 mod symbols;
 mod types;
 mod unit;
+mod vendor;
 
 #[cfg(test)]
 mod tests;
@@ -45,6 +47,7 @@ pub fn build(files: &[(SourceId, ast::File)], sources: &Sources, sink: &mut Sink
     let mut builder = Builder::new(sources, sink);
     builder.collect(files);
     builder.declare_all();
+    builder.check_objects();
     builder.plan_programs();
     builder.var_config();
     builder.place_image();

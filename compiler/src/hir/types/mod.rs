@@ -74,9 +74,10 @@ impl Builder<'_> {
             let ty = self.bool();
             return self.plain(ty);
         }
-        match self.symbols.units.get(&name.key()) {
-            Some(&(Unit::Type(index), _)) => self.declared_type(index, name.span),
-            Some(&(Unit::Pou(id), _)) => self.instance_type(id, name.span),
+        match self.named_unit(name) {
+            Some(Unit::Type(index)) => self.declared_type(index, name.span),
+            Some(Unit::Pou(id)) => self.instance_type(id, name.span),
+            None if self.is_vendor_block(name) => self.bad_type(),
             None => {
                 let known = self.unit_names().into_iter().chain(Elementary::ALL.iter().map(|e| e.name().to_owned())).collect();
                 self.unknown(Code::UnknownType, name, known);
@@ -87,12 +88,16 @@ impl Builder<'_> {
 
     fn instance_type(&mut self, id: PouId, at: Span) -> TypeUse {
         let pou = &self.hir.pous[id];
-        if pou.kind != PouKind::FunctionBlock {
+        if pou.kind == PouKind::Interface {
+            return self.interface_type(id, at);
+        }
+        if !matches!(pou.kind, PouKind::FunctionBlock | PouKind::Class) {
             let what = if pou.kind == PouKind::Program { "a PROGRAM" } else { "a FUNCTION" };
             let help = "only function blocks have instances; programs are listed in the CONFIGURATION";
             self.report(Diag::new(Code::UnknownType, at, what).message("this is not a type").help(help));
             return self.bad_type();
         }
+        self.check_instantiable(id, at);
         if !self.ensure_pou(id, at) {
             let label = format!("`{}` would contain itself", self.hir.pous[id].name);
             self.error(Code::RecursiveType, at, label);

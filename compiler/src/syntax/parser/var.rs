@@ -43,7 +43,8 @@ impl Parser<'_> {
             return None;
         };
         self.bump();
-        let mut section = VarSection { kind, constant: false, retain: None, persistent: false, decls: Vec::new(), span: start };
+        let mut section =
+            VarSection { kind, constant: false, retain: None, access: None, persistent: false, decls: Vec::new(), span: start };
         self.qualifiers(&mut section);
         section.span = self.since(start);
         self.decls(&mut section, start, kw);
@@ -64,10 +65,7 @@ impl Parser<'_> {
                     self.codesys_form("PERSISTENT");
                     section.persistent = true;
                 }
-                Kw::Public | Kw::Private | Kw::Protected | Kw::Internal => {
-                    let what = self.kw().text();
-                    self.unsupported_here(what);
-                }
+                Kw::Public | Kw::Private | Kw::Protected | Kw::Internal => section.access = super::object::access(self.kw()),
                 _ => return,
             }
             self.bump();
