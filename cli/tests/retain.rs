@@ -163,6 +163,24 @@ fn f0007_changed_variables_start_anew_and_the_others_stay() {
     }
 }
 
+/// A changed program numbers its classes anew: the number of an instance is not retained.
+#[test]
+fn s10_4_objects_keep_values_but_not_what_they_are() {
+    let stored = folder("objects_file").join("retain");
+    let program = |name: &str, more: &str| {
+        let text = format!("{more} FUNCTION_BLOCK Base VAR n : INT; END_VAR METHOD PUBLIC add : INT n := n + 1; add := n; END_METHOD END_FUNCTION_BLOCK
+        FUNCTION_BLOCK Ten EXTENDS Base VAR k : INT; END_VAR METHOD PUBLIC OVERRIDE add : INT n := n + 10; k := k + 1; add := n; END_METHOD END_FUNCTION_BLOCK
+        FUNCTION use : INT VAR_IN_OUT b : Base; END_VAR use := b.add(); END_FUNCTION
+        PROGRAM Main VAR RETAIN t : Ten; list : ARRAY [0..1] OF Ten; END_VAR VAR x, y : INT; END_VAR x := use(b := t); y := use(b := list[1]); END_PROGRAM");
+        file(name, "main.st", text)
+    };
+    let args = ["--scans", "1", "--watch", "Main.x,Main.y,Main.t.k"];
+    let names = ["Main.x", "Main.y", "Main.t.k"];
+    assert_eq!(ints(&sim(&program("objects_a", ""), &stored, &args), &names), [10, 10, 1]);
+    let more = "FUNCTION_BLOCK New VAR z : INT; END_VAR METHOD PUBLIC add : INT z := 1; END_METHOD END_FUNCTION_BLOCK FUNCTION_BLOCK Newer EXTENDS New END_FUNCTION_BLOCK";
+    assert_eq!(ints(&sim(&program("objects_b", more), &stored, &args), &names), [20, 20, 2]);
+}
+
 /// Starts `takt run`, and waits until the retain file is there.
 fn run_until_written(project: &Path, stored: &Path) -> std::process::Child {
     let mut command = Command::new(env!("CARGO_BIN_EXE_takt"));

@@ -169,7 +169,7 @@ fn section_3_variables_and_constants() {
         ("", "a AT %IX0.0 : BOOL;", "a := TRUE;", "P3013"),
         ("", "n : INT;", "%IW1 := 1;", "P3013"),
         ("", "a AT %QX0.9 : BOOL;", "", "P0008"),
-        ("", "a AT %I* : BOOL;", "", "P0012"),
+        ("", "a AT %I* : BOOL;", "", "P3080"),
         (
             "FUNCTION_BLOCK F VAR_INPUT i : INT; END_VAR VAR_OUTPUT o : INT; END_VAR VAR v : INT; END_VAR o := i + v; END_FUNCTION_BLOCK",
             "f : F; n : INT;",

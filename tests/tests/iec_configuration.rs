@@ -131,3 +131,24 @@ fn s3_4_s11_what_is_wrong_with_a_configuration() {
         assert!(one(declared, config).contains(&want), "{declared} {config}: {:?}", one(declared, config));
     }
 }
+
+#[test]
+fn s3_4_derived_blocks_and_methods() {
+    let text = |body: &str, config: &str| {
+        format!(
+            "FUNCTION_BLOCK Base VAR PROTECTED i AT %I* : BOOL; END_VAR VAR PUBLIC o AT %Q* : BOOL; END_VAR METHOD PUBLIC run {body} END_METHOD END_FUNCTION_BLOCK
+            FUNCTION_BLOCK Sub EXTENDS Base VAR n : INT; END_VAR END_FUNCTION_BLOCK
+            PROGRAM Main VAR s : Sub; END_VAR s.run(); END_PROGRAM
+            CONFIGURATION c RESOURCE r ON PLC PROGRAM p : Main; END_RESOURCE VAR_CONFIG {config} END_VAR END_CONFIGURATION"
+        )
+    };
+    let config = "p.s.i AT %IX0.5 : BOOL; p.s.o AT %QX0.6 : BOOL;";
+    let mut plc = Plc::new(&text("o := NOT i;", config));
+    plc.scan(0).unwrap();
+    assert_eq!(plc.get("%QX0.6"), "TRUE");
+    plc.set("%IX0.5", "TRUE");
+    plc.scan(10).unwrap();
+    assert_eq!(plc.get("%QX0.6"), "FALSE");
+    assert_eq!(codes(&text("o := NOT i;", "p.s.i AT %IX0.5 : BOOL;")), ["P3080"]);
+    assert_eq!(codes(&text("i := o;", config)), ["P3013"]);
+}

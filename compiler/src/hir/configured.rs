@@ -21,6 +21,9 @@ impl Builder<'_> {
     pub fn var_config(&mut self) {
         let mut given = Given::new();
         for c in self.symbols.configurations.clone() {
+            if let Some(access) = c.access.first() {
+                self.unsupported(access.name.span, "VAR_ACCESS", "name the variable by its own path in --watch and --set");
+            }
             c.config.iter().for_each(|decl| self.config_decl(decl, &mut given));
         }
         self.mirror_values();

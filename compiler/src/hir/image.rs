@@ -54,7 +54,13 @@ impl ImagePlan {
     pub fn open_area(&self, owner: Owner) -> Option<Area> {
         self.open.get(&owner).copied()
     }
-    /// All of these that are variables of units.
+    /// A derived type leaves open what its base does: the variable has the same id there.
+    pub fn inherit_open(&mut self, base: PouId, derived: PouId, id: VarId) {
+        if let Some(area) = self.open_area(Owner::Var(base, id)) {
+            self.open.insert(Owner::Var(derived, id), area);
+        }
+    }
+    /// True if a unit has variables whose address is open.
     pub fn has_open(&self, pou: PouId) -> bool {
         self.open.keys().any(|o| matches!(o, Owner::Var(p, _) if *p == pou))
     }

@@ -154,7 +154,8 @@ impl Builder<'_> {
             self.hir.pous[id].vars[var].edge = Some((edge, var));
         }
         let may_locate = |at: &&ast::Address| {
-            let kind = pou.kind == ast::PouKind::Program || pou.kind == ast::PouKind::FunctionBlock && at.path.is_empty();
+            let block = matches!(pou.kind, ast::PouKind::FunctionBlock | ast::PouKind::Class);
+            let kind = pou.kind == ast::PouKind::Program || block && at.path.is_empty();
             kind && section.kind == SectionKind::Var
         };
         if let Some(at) = d.at.as_ref().filter(may_locate) {

@@ -58,9 +58,9 @@ impl Builder<'_> {
 
     fn check_address(&mut self, pou: &ast::Pou, section: &ast::VarSection, d: &ast::VarDecl) {
         let Some(at) = &d.at else { return };
-        let open = at.path.is_empty() && pou.kind == PouKind::FunctionBlock;
+        let open = at.path.is_empty() && matches!(pou.kind, PouKind::FunctionBlock | PouKind::Class);
         if !open && pou.kind != PouKind::Program || section.kind != SectionKind::Var {
-            let help = "locate variables in VAR of a program or in VAR_GLOBAL";
+            let help = "locate variables in VAR of a program or in VAR_GLOBAL; a block leaves the address open: AT %Q*";
             self.report(Diag::new(Code::SectionNotAllowed, at.span, "an address").help(help));
         }
     }

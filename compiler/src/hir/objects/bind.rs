@@ -1,6 +1,7 @@
 //! THIS and the variables of the running instance, seen from methods; bodies of bases.
 
 use crate::hir::builder::Builder;
+use crate::hir::image::Owner;
 use crate::hir::model::*;
 use crate::hir::place::{Access, Target};
 use crate::hir::scope::ReadOnly;
@@ -45,6 +46,7 @@ impl Builder<'_> {
             Some(ReadOnly::Constant) => Access::Constant(var.span),
             Some(ReadOnly::Input) => Access::OwnInput(var.span),
             None if self.image.area_of_var(owner, id) == Some(ast::Area::Input) => Access::InputImage,
+            None if self.image.open_area(Owner::Var(owner, id)) == Some(ast::Area::Input) => Access::InputImage,
             None => Access::Write,
         };
         let (base, path) = match var.storage {

@@ -169,6 +169,7 @@ impl Builder<'_> {
             if !private && !matches!(var.role, Role::Hidden | Role::Temp) {
                 self.scope.names.insert(var.name.to_ascii_uppercase(), (Local::Var(v), var.span));
             }
+            self.image.inherit_open(base, id, v);
             self.hir.pous[id].vars.push(var);
         }
         let scope = &self.symbols.pous[base].scope;

@@ -1,13 +1,14 @@
 //! What keeps its value over a restart: RETAIN, NON_RETAIN and PERSISTENT through instances, structures and arrays.
-//! From: language reference §3.2, §10.4. References are never kept: their numbers would mean something else.
+//! From: language reference §3.2, §10.4. References and class numbers are never kept: they
+//! would mean something else in a changed program.
 
 use super::data::{Data, process_image, too_large};
 use crate::hir::model::*;
 use std::collections::HashMap;
 use takt_base::{Diag, Span};
 use takt_image::image::{Place as ImagePlace, Retained};
-use takt_image::types::{Record, Section};
-use takt_image::{Type, TypeId};
+use takt_image::types::{Field, Record, Section};
+use takt_image::{CLASS_FIELD, Type, TypeId};
 
 /// Variables at most: more of them are better kept as one array.
 const RETAINED_MAX: usize = 1 << 18;
@@ -103,7 +104,8 @@ impl Walk<'_> {
     fn unit(&mut self, at: &At, path: String, ty: TypeId, r: &Record, offset: u32, keep: Keep) -> Result<(), Diag> {
         let Some(&pou) = self.units.get(&ty) else { return Ok(()) };
         let hir = self.hir;
-        for v in hir.pous[pou].vars.iter().filter(|v| v.role != Role::InOut) {
+        let kept = |v: &&Var| v.role != Role::InOut && v.name != CLASS_FIELD;
+        for v in hir.pous[pou].vars.iter().filter(kept) {
             let Storage::Field(i) = v.storage else { continue };
             let Some(f) = r.fields.get(i as usize) else { continue };
             self.part(at, format!("{path}.{}", f.name), f.ty, offset + f.offset, keep.or(v.keep))?;
@@ -124,7 +126,8 @@ impl Walk<'_> {
             Type::Struct(r) => r.fields.iter().all(|f| self.plain(f.ty)),
             Type::Instance(r) => {
                 let own = self.units.get(&ty).is_some_and(|p| hir.pous[*p].vars.iter().all(|v| v.keep == Keep::Unsaid));
-                own && hir.mirrors.is_empty() && r.fields.iter().all(|f| f.section != Section::InOut && self.plain(f.ty))
+                let whole = |f: &Field| f.section != Section::InOut && f.name != CLASS_FIELD;
+                own && hir.mirrors.is_empty() && r.fields.iter().all(|f| whole(f) && self.plain(f.ty))
             }
             _ => false,
         };
