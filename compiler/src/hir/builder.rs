@@ -44,6 +44,8 @@ pub(super) struct Builder<'a> {
     pub guards_next: bool,
     /// A call with EN or ENO is being put together: it stays for the run time, where it tells its errors by ENO.
     pub unfolded: bool,
+    /// The tests are the machine: see `hir::build_tests`.
+    pub tests: bool,
     leaves: usize,
     depth: u32,
 }
@@ -71,6 +73,7 @@ impl<'a> Builder<'a> {
             bit_members: HashMap::new(),
             guards_next: false,
             unfolded: false,
+            tests: false,
             leaves: 0,
             depth: 0,
         }

@@ -40,7 +40,10 @@ impl<'a> Builder<'a> {
     }
 
     fn default_configuration(&mut self) {
-        let mine = self.hir.pous.enumerate().filter(|(id, p)| p.kind == PouKind::Program && !self.symbols.pous[*id].library);
+        let mine = self.hir.pous.enumerate().filter(|(id, p)| {
+            let entry = &self.symbols.pous[*id];
+            p.kind == PouKind::Program && !entry.library && entry.decl.test.is_none()
+        });
         let programs: Vec<_> = mine.map(|(pou, p)| instance(p.name.clone(), pou)).collect();
         for program in &programs {
             let at = self.symbols.pous[program.pou].decl.name.span;
@@ -152,7 +155,7 @@ impl<'a> Builder<'a> {
     }
 
     /// A task binds nothing to a VAR_IN_OUT (§4.7).
-    fn check_bound(&mut self, pou: PouId, at: Span) {
+    pub(super) fn check_bound(&mut self, pou: PouId, at: Span) {
         let unbound = self.hir.pous[pou].vars.iter().find(|v| v.role == Role::InOut);
         if let Some(var) = unbound {
             let (label, declared) = (format!("a task can't bind `{}`", var.name), var.span);
@@ -226,7 +229,7 @@ impl<'a> Builder<'a> {
     }
 }
 
-fn instance(name: String, pou: PouId) -> ProgramInstance {
+pub(super) fn instance(name: String, pou: PouId) -> ProgramInstance {
     ProgramInstance { name, pou, inputs: Vec::new(), outputs: Vec::new() }
 }
 

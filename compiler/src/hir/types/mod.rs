@@ -87,7 +87,7 @@ impl Builder<'_> {
 
     fn instance_type(&mut self, id: PouId, at: Span) -> TypeUse {
         let pou = &self.hir.pous[id];
-        if pou.kind != PouKind::FunctionBlock {
+        if pou.kind != PouKind::FunctionBlock && !(pou.kind == PouKind::Program && self.in_test()) {
             let what = if pou.kind == PouKind::Program { "a PROGRAM" } else { "a FUNCTION" };
             let help = "only function blocks have instances; programs are listed in the CONFIGURATION";
             self.report(Diag::new(Code::UnknownType, at, what).message("this is not a type").help(help));

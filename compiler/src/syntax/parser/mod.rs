@@ -13,6 +13,7 @@ mod literal;
 mod loops;
 mod recover;
 mod stmt;
+mod test;
 mod types;
 mod unsupported;
 mod var;
