@@ -149,6 +149,7 @@ codes! {
 
     // --- T tests ---
     T0001 BadTestPragma "this `{test}` pragma is not understood";
+    T0002 TestInConfiguration "a task can't run a unit test";
 
     // --- F runtime faults and ErrorID numbers ---
     F0001 ParameterOutOfRange "a parameter is out of range";

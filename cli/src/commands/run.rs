@@ -1,9 +1,10 @@
 //! `takt run`: runs in real time until the project says so, a fault, or Ctrl-C.
 
+use crate::host::PlcHost;
 use crate::progress::{self, Display, Reporter};
 use crate::project::{self, Problem};
 use crate::session::{EngineKind, Session, with_stimulus};
-use crate::{Status, duration, report};
+use crate::{Status, asserts, duration, report};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -13,6 +14,7 @@ use takt_base::{Code, Nanos};
 use takt_motion::machine::Background;
 use takt_runtime::realtime::{Request, enter, on_program_thread};
 use takt_runtime::{Monotonic, Progress};
+use takt_stdlib::asserts::Asserts;
 
 /// Run in real time
 #[derive(clap::Args)]
@@ -88,7 +90,9 @@ fn real_time(
     started: mpsc::Sender<Arc<Progress>>,
 ) -> Result<Outcome, Problem> {
     let machine = session.machine(Background::Thread);
-    let resource = session.resource(machine.clone(), EngineKind::Native, session.options()?)?;
+    let asserts = Asserts::default();
+    let host = PlcHost::new(machine.clone(), asserts.clone());
+    let resource = session.resource(host, EngineKind::Native, session.options()?)?;
     let mut resource = with_stimulus(resource, session.stimulus(None)?);
     let stop_when = session.stop_when()?;
     let deadline = args.duration.or(session.duration()?);
@@ -102,10 +106,12 @@ fn real_time(
     });
     let end = machine.borrow().report();
     resource.stop(&mut clock);
+    asserts::report(&asserts.borrow(), &image.types);
     report::faults(&resource);
     let machine = machine.borrow();
     let mut summary = format!("{}: {:.2} s, {real_time}\n", session.name, resource.counts().now.as_secs());
     summary += &report::tasks(&resource);
+    summary += &asserts::summary(&asserts.borrow());
     summary += &report::machine(&end, &session.machine);
     if let Some(path) = picture_path(args, session) {
         summary += &write_picture(&path, session, machine.trace())?;

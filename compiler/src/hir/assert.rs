@@ -26,6 +26,8 @@ const FORMS: &[Form] = &[
     ("ASSERT_NEAR", &["EXPECTED", "ACTUAL", "TOLERANCE"], BinaryOp::Le),
 ];
 const MESSAGE: &str = "MSG";
+/// Every native of an assertion begins so.
+pub(super) const PREFIX: &str = "ASSERT_";
 
 /// Names of all assertions.
 pub(super) fn names() -> impl Iterator<Item = String> {
@@ -97,7 +99,7 @@ impl Builder<'_> {
             return None;
         }
         let check = if args.len() == 3 { "NEAR" } else { check_name(form.2) };
-        let name = format!("ASSERT_{check}_{}", self.storage_name(ty)?);
+        let name = format!("{PREFIX}{check}_{}", self.storage_name(ty)?);
         let line = self.sources.line_col(span.source, span.start).line;
         let file = self.sources.get(span.source).name.clone().into_bytes();
         args.extend([message?, self.text_constant(file, span)]);

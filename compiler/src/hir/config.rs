@@ -147,6 +147,11 @@ impl<'a> Builder<'a> {
             }
         };
         self.check_bound(pou, decl.name.span);
+        if let Some(test) = self.symbols.pous[pou].decl.test.as_ref().map(|_| self.symbols.pous[pou].decl.name.span) {
+            let diag = Diag::new(Code::TestInConfiguration, decl.ty.span, "a unit test").also(test, "declared");
+            self.report(diag.help("tests are run by `takt test`, not by tasks"));
+            return None;
+        }
         let mut program = instance(decl.name.text.clone(), pou);
         for arg in &decl.connections {
             self.connect(&mut program, arg, decl.name.span);

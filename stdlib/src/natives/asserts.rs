@@ -1,5 +1,5 @@
 //! Natives behind the assertions: `ASSERT_EQ_INT`, `ASSERT_NEAR_REAL`. They compare as the operators do, keep what failed in the
-//! [`AssertLog`](crate::asserts::AssertLog) and give back whether it held. Runs: cyclic.
+//! [`AssertLog`](crate::asserts::AssertLog) and give back whether it held. Runs: binding in the background, `run` cyclic.
 //!
 //! Slots: expected, actual, for NEAR the tolerance, message (a STRING), file (a STRING), line I32, type I32. Result: BOOL.
 

@@ -19,6 +19,7 @@ impl Parser<'_> {
                 self.bump();
             }
         }
+        self.misplaced_tests();
         File { items }
     }
 
