@@ -183,7 +183,8 @@ fn a_wrong_project_has_no_results() {
 /// Every type shows its values as literals.
 #[test]
 fn values_are_shown_by_their_type() {
-    let vars = "b : BOOL; i : INT := -3; u : USINT := 200; big : ULINT := 16#FFFF_FFFF_FFFF_FFFF; w : WORD := 16#FF; r : REAL := 0.1;
+    let vars =
+        "b : BOOL; i : INT := -3; u : USINT := 200; big : ULINT := 16#FFFF_FFFF_FFFF_FFFF; w : WORD := 16#FF; r : REAL := 0.1;
         d : LREAL := 0.1; s : STRING := 'it$'s'; ws : WSTRING := \"w\"; t : TIME := T#1s500ms; day : DATE := D#2024-02-29;
         c : CHAR := 'x'; m : Mode := fast; p : Percent := 50; nan : REAL; long : STRING[250];";
     let lines = [

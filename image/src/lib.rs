@@ -27,5 +27,5 @@ pub use image::Image;
 pub use memory::{MemoryMap, header};
 pub use natives::{BindError, Cyclic, Host, NativeCall, NativeImport, NativeKind, Natives, Scalar};
 pub use traps::{Fault, Trap};
-pub use types::{Type, TypeId, TypeTable};
+pub use types::{CLASS_FIELD, Type, TypeId, TypeTable};
 pub use value::{Patch, Value, VarType};

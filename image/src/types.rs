@@ -10,6 +10,9 @@ takt_base::index_type! {
     TypeId
 }
 
+/// Name of the hidden first field of instances that hold the number of their class. No user's name: it is a keyword.
+pub const CLASS_FIELD: &str = "class";
+
 /// A type.
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
 pub enum Type {
@@ -56,7 +59,7 @@ pub enum Type {
     Struct(Record),
     /// FUNCTION_BLOCK or PROGRAM instance: inputs, outputs, in-out references, variables, in declaration order of the sections.
     Instance(Record),
-    /// The place of a VAR_IN_OUT: a 32-bit offset into the resource memory.
+    /// The place of a VAR_IN_OUT, or the value of a variable of an interface type: a 32-bit offset into the resource memory.
     Reference {
         /// What it refers to.
         target: TypeId,
@@ -296,7 +299,7 @@ impl TypeTable {
     pub fn storage(&self, id: TypeId) -> Option<Elementary> {
         match self.get(id) {
             Type::Elementary(e) | Type::Subrange { base: e, .. } | Type::Enum { base: e, .. } => Some(*e),
-            Type::Pointer { .. } => Some(Elementary::Udint),
+            Type::Reference { .. } | Type::Pointer { .. } => Some(Elementary::Udint),
             _ => None,
         }
     }

@@ -65,6 +65,12 @@ codes! {
     P1007 AmbiguousEnumerator "several enumerations have a value of this name";
     P1008 GlobalWithoutExternal "a global is used without a VAR_EXTERNAL declaration" Warning;
     P1009 ExternalMismatch "VAR_EXTERNAL does not match a global variable";
+    P1020 AccessDenied "this member can't be used from here";
+    P1021 MemberClash "a method and a variable have the same name";
+    P1022 HidesInherited "this variable has the name of an inherited one";
+    P1023 UnknownMethod "this type has no such method";
+    P1024 NoThis "THIS and SUPER need a type around them";
+    P1025 NoBase "SUPER needs a base type";
 
     // --- P2 types ---
     P2001 TypeMismatch "the types do not fit";
@@ -87,6 +93,10 @@ codes! {
     P2020 BadLayout "a member has no place in this structure";
     P2019 MisplacedOpenArray "an array of variable length is a parameter, used by its elements";
     P2018 NotAReference "only a reference can be dereferenced";
+    P2030 NotABase "this can't be extended or implemented here";
+    P2031 InheritanceCycle "a type can't inherit from itself";
+    P2032 AbstractInstance "an abstract type has no instances";
+    P2033 NotImplementedBy "the type does not implement the interface";
 
     // --- P3 program rules ---
     P3001 AssignToConstant "a constant can't be assigned";
@@ -104,6 +114,14 @@ codes! {
     P3013 WriteToInputImage "the input image can't be written";
     P3015 ReferenceKept "a reference can't be retained or located";
     P3014 RetainNotKept "retained values are not kept over a restart by this version" Warning;
+    P3040 MissingMethod "a method that the type promises is missing";
+    P3041 SignatureMismatch "the method differs from the one that it replaces";
+    P3042 MissingOverride "a method that replaces an inherited one needs OVERRIDE";
+    P3043 OverridesFinal "what is FINAL can't be replaced or extended";
+    P3044 NothingToOverride "OVERRIDE without an inherited method";
+    P3045 AbstractMethod "an ABSTRACT method can't be used like this";
+    P3046 PropertySide "the property lacks GET or SET";
+    P3047 NotBound "nothing is ever assigned to this interface variable" Warning;
 
     // --- P4 tasks and configuration ---
     P4001 UnknownTask "no task has this name";

@@ -11,8 +11,8 @@ use std::sync::atomic::AtomicBool;
 use takt_base::Nanos;
 use takt_image::value::Patch;
 use takt_motion::machine::Background;
-use takt_stdlib::asserts::Asserts;
 use takt_runtime::{FaultReport, Options, Resource, Stimulus, Virtual, When};
+use takt_stdlib::asserts::Asserts;
 
 /// Run in virtual time
 #[derive(clap::Args)]

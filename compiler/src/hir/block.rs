@@ -26,6 +26,7 @@ impl Builder<'_> {
         match (self.local(&name.key()), self.scope.pou) {
             (Some(Local::Var(v)), Some(p)) => self.hir.pous[p].result != Some(v),
             (Some(_), _) => true,
+            (None, _) if self.is_this(name) => true,
             (None, _) => {
                 let function = matches!(self.symbols.units.get(&name.key()), Some((Unit::Pou(_), _)));
                 !function && self.symbols.globals.contains_key(&name.key())
@@ -39,7 +40,8 @@ impl Builder<'_> {
         let (Some(target), Some(id)) = (target.clone(), pou) else {
             if let Some(t) = target.filter(|t| t.place.ty != self.error) {
                 let label = format!("{}, not a function block", self.show(t.place.ty));
-                self.error(Code::NotCallable, callee.span, label);
+                let help = "functions and instances of function blocks are called; of a class its methods";
+                self.report(Diag::new(Code::NotCallable, callee.span, label).help(help));
             }
             args.iter().filter_map(super::body::arg_expr).for_each(|e| drop(self.operand(e, None)));
             return None;
@@ -50,6 +52,7 @@ impl Builder<'_> {
             return None;
         }
         self.note_call(id, span);
+        self.note_bodies(&target.place, id, span);
         let declared = self.declared_enable(id);
         let enable = self.enable(args, declared);
         let rest = enable.as_ref().map_or(args, |e| &e.rest);
@@ -64,11 +67,11 @@ impl Builder<'_> {
     }
 
     /// The function block that the place is an instance of.
-    fn block_of(&self, place: &Place) -> Option<PouId> {
+    pub(super) fn block_of(&self, place: &Place) -> Option<PouId> {
         if !matches!(self.ty(place.ty), Type::Instance(_)) {
             return None;
         }
-        self.hir.pous.enumerate().find(|(_, p)| p.instance == Some(place.ty)).map(|(id, _)| id)
+        self.objects.types.get(&place.ty).copied().filter(|id| self.hir.pous[*id].kind == PouKind::FunctionBlock)
     }
 
     fn block_arguments(&mut self, instance: Place, id: PouId, given: Vec<Option<Given>>, span: Span) -> Option<StmtKind> {

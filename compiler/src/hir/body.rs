@@ -24,8 +24,11 @@ impl Builder<'_> {
                 "leave the body empty: it is provided by the controller",
             );
         }
-        let body = self.statements(&decl.body);
-        self.check_result_written(id);
+        let mut body = self.statements(&decl.body);
+        body.extend(self.inherited_body(id, decl));
+        if !self.is_signature(id) {
+            self.check_result_written(id);
+        }
         self.hir.pous[id].body = body;
         self.scope = outer;
     }

@@ -46,6 +46,8 @@ pub(super) struct Builder<'a> {
     pub unfolded: bool,
     /// The tests are the machine: see `hir::build_tests`.
     pub tests: bool,
+    /// Types with their methods and heritage.
+    pub objects: super::objects::Table,
     leaves: usize,
     depth: u32,
 }
@@ -74,6 +76,7 @@ impl<'a> Builder<'a> {
             guards_next: false,
             unfolded: false,
             tests: false,
+            objects: super::objects::Table::default(),
             leaves: 0,
             depth: 0,
         }

@@ -290,6 +290,9 @@ impl Builder<'_> {
         if o.expr.ty == to {
             return Ok(o.expr);
         }
+        if let Some(e) = self.to_interface(&o.expr, to) {
+            return Ok(e);
+        }
         if self.pointee(o.expr.ty).is_some() || self.pointee(to).is_some() {
             return self.convert_pointer(&o.expr, to).ok_or(Misfit::Type);
         }

@@ -21,6 +21,7 @@ mod init;
 mod label;
 mod lattice;
 pub mod model;
+mod objects;
 mod place;
 mod pointer;
 mod reference;
@@ -38,8 +39,8 @@ use crate::syntax::ast;
 use builder::Builder;
 pub use config::DEFAULT_INTERVAL;
 use model::Hir;
-pub use test_tasks::Test;
 use takt_base::{Sink, SourceId, Sources};
+pub use test_tasks::Test;
 
 /// Builds the typed program of all files, library files first. The result can be lowered if nothing was reported as an error.
 pub fn build(files: &[(SourceId, ast::File)], sources: &Sources, sink: &mut Sink) -> Hir {
@@ -58,6 +59,7 @@ pub fn build_tests(files: &[(SourceId, ast::File)], sources: &Sources, sink: &mu
 fn passes<'a>(mut builder: Builder<'a>, files: &'a [(SourceId, ast::File)]) -> Builder<'a> {
     builder.collect(files);
     builder.declare_all();
+    builder.check_objects();
     builder.place_image();
     builder.bodies();
     builder.configure();

@@ -44,6 +44,12 @@ pub struct Pou {
     pub name: String,
     /// Which.
     pub kind: PouKind,
+    /// Of a method: the type that it is declared in.
+    pub owner: Option<PouId>,
+    /// The function block or class that this one extends. Its variables come first, under the same ids and fields.
+    pub base: Option<PouId>,
+    /// Contents of the hidden first field of instances, if the type takes part in dynamic binding.
+    pub class: Option<u32>,
     /// File of the declaration.
     pub source: SourceId,
     /// For function blocks and programs: the [`takt_image::Type::Instance`] whose fields are `vars` with storage `Field`.
@@ -69,10 +75,22 @@ pub enum PouKind {
     Function,
     FunctionBlock,
     Program,
+    Class,
+    /// Has no body and no variables; its methods are signatures.
+    Interface,
+    /// Of a function block, class, program or interface; see [`Pou::owner`].
+    Method,
+}
+
+impl PouKind {
+    /// Variables start anew at each call; arguments are handed over as parameters.
+    pub fn is_called_by_value(self) -> bool {
+        matches!(self, PouKind::Function | PouKind::Method)
+    }
 }
 
 /// A variable of a unit.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Var {
     /// Name as declared.
     pub name: String,
@@ -284,6 +302,12 @@ pub enum ExprKind {
         pou: PouId,
         args: Vec<Arg>,
     },
+    /// A method; without a result the type is BOOL and means nothing.
+    CallMethod(Box<MethodCall>),
+    /// The offset of an instance, as a value of an interface type.
+    AddressOf(Place),
+    /// The reference itself if its instance is of one of these classes, else NULL.
+    OfClass(Box<Expr>, Vec<u32>),
     Intrinsic(Intrinsic, Vec<Expr>),
     /// A call with EN or ENO: library errors give their stated value instead of a fault. Not run, it is zero.
     Guarded(Box<Guarded>),
@@ -311,6 +335,40 @@ pub struct Eno {
     pub negated: bool,
     /// The unit declares ENO: the call itself writes the target when it runs.
     pub written: bool,
+}
+
+/// A call of a method.
+#[derive(Clone, Debug)]
+pub struct MethodCall {
+    pub receiver: Receiver,
+    /// The method of the receiver's static type: it has the signature.
+    pub method: PouId,
+    /// Methods by class number if the instance decides which one runs; empty: `method` runs.
+    pub dynamic: Vec<(u32, PouId)>,
+    /// In order of [`Pou::params`] of `method`.
+    pub args: Vec<Arg>,
+}
+
+impl MethodCall {
+    /// The methods that may run.
+    pub fn targets(&self) -> Vec<PouId> {
+        let mut list: Vec<_> = self.dynamic.iter().map(|d| d.1).collect();
+        if self.dynamic.is_empty() {
+            list.push(self.method);
+        }
+        list.sort();
+        list.dedup();
+        list
+    }
+}
+
+/// Whose method is called.
+#[derive(Clone, Debug)]
+pub enum Receiver {
+    /// An instance.
+    Place(Place),
+    /// A reference to one; NULL traps.
+    Reference(Expr),
 }
 
 /// Conversions between scalar types; source and target storage are in the types.
@@ -371,6 +429,8 @@ pub struct Place {
 pub enum Base {
     /// Variable of the running unit; a VAR_IN_OUT means what it refers to.
     Var(VarId),
+    /// The running instance of the type that the unit is or belongs to.
+    This,
     Global(GlobalId),
     /// Direct address.
     Image(ImagePlace),
@@ -394,6 +454,11 @@ pub enum Step {
 }
 
 impl Hir {
+    /// True if `sub` is `base` or extends it.
+    pub fn extends(&self, sub: PouId, base: PouId) -> bool {
+        let mut line = std::iter::successors(Some(sub), |id| self.pous[*id].base);
+        line.any(|id| id == base)
+    }
     /// Storage type of a scalar.
     pub fn elementary(&self, ty: TypeId) -> Option<Elementary> {
         self.types.storage(ty)

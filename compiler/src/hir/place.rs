@@ -70,6 +70,7 @@ impl Builder<'_> {
                 let constant = self.scope.read_only.get(&id) == Some(&ReadOnly::Constant);
                 constant.then(|| self.scope.pou.map(|p| &self.hir.pous[p].vars[id].init)).flatten()?
             }
+            Base::This => return self.member_constant(place),
             Base::Image(_) => return None,
         };
         let mut ty = self.base_type(&place.base)?;
@@ -89,6 +90,7 @@ impl Builder<'_> {
         match *base {
             Base::Global(id) => Some(self.hir.globals[id].ty),
             Base::Var(id) => Some(self.hir.pous[self.scope.pou?].vars[id].ty),
+            Base::This => self.hir.pous[self.own_type()?].instance,
             Base::Image(_) | Base::Value(_) => None,
         }
     }
@@ -147,7 +149,9 @@ impl Builder<'_> {
     fn variable(&mut self, n: &ast::Name) -> Option<Target> {
         let id = match self.local(&n.key()) {
             Some(Local::Var(id)) => return Some(self.own_variable(id, n.span)),
+            Some(Local::Member(id)) => return self.own_member(id, n),
             Some(Local::External(id)) => id,
+            None if self.is_this(n) => return self.this_place(n),
             None => match self.global(n) {
                 Some(id) => id,
                 None => {
@@ -189,7 +193,9 @@ impl Builder<'_> {
             Some((Unit::Pou(id), _)) => Some(match self.hir.pous[*id].kind {
                 PouKind::Function => "a function: call it with ( )",
                 PouKind::FunctionBlock => "a function block: declare an instance of it",
-                PouKind::Program => "a program",
+                PouKind::Class => "a class: declare an instance of it",
+                PouKind::Interface => "an interface: declare a variable of it",
+                PouKind::Program | PouKind::Method => "a program",
             }),
             None if takt_stdlib::lookup(&n.text).is_some() => Some("a standard function: call it with ( )"),
             None => None,
@@ -222,9 +228,12 @@ impl Builder<'_> {
                 return None;
             }
         };
-        let index = record.fields.iter().position(|f| name.is(&f.name) && f.section != Section::Hidden);
+        let index = record.fields.iter().rposition(|f| name.is(&f.name) && f.section != Section::Hidden);
         let Some(index) = index else {
             let known = record.fields.iter().filter(|f| f.section != Section::Hidden).map(|f| f.name.clone()).collect();
+            if self.method_without_call(base.place.ty, name) {
+                return None;
+            }
             self.unknown(Code::UnknownMember, name, known);
             return None;
         };
@@ -234,7 +243,11 @@ impl Builder<'_> {
             self.report(Diag::new(Code::UnknownMember, name.span, "a VAR_IN_OUT is not visible from outside").help(help));
             return None;
         }
-        let access = match (base.access, instance && section != Section::Input) {
+        let writable = section == Section::Input || self.is_own_place(&base.place) || self.is_public_var(base.place.ty, index);
+        if instance && !self.check_var_access(base.place.ty, index, name) {
+            return None;
+        }
+        let access = match (base.access, instance && !writable) {
             (Access::Write, true) => Access::Inside,
             (access, _) => access,
         };

@@ -76,6 +76,10 @@ impl Builder<'_> {
     pub(super) fn null(&mut self, span: Span, want: Option<TypeId>) -> Operand {
         match want.filter(|ty| self.pointee(*ty).is_some()) {
             Some(ty) => Operand::fixed(constant_expr(Const::Int(0), ty, span)),
+            None if want.is_some_and(|w| matches!(self.ty(w), Type::Reference { .. })) => {
+                let ty = self.null_type();
+                Operand::fixed(constant_expr(Const::Int(0), ty, span))
+            }
             None if want == Some(self.error) => self.bad(span),
             None => {
                 let help = "NULL is a value of references: compare it with one, or assign it to one";
@@ -189,7 +193,7 @@ impl Builder<'_> {
                 Some(Storage::Image(at)) => Some(at),
                 _ => None,
             },
-            Base::Value(_) => None,
+            Base::This | Base::Value(_) => None,
         };
         matches!(at, Some(At::Bit(..)))
     }
@@ -201,6 +205,9 @@ impl Builder<'_> {
             return None;
         };
         let ty = target.ty;
+        if matches!(self.ty(ty), Type::Reference { .. }) {
+            return self.attempt_interface(target, value);
+        }
         if ty != self.error && !matches!(self.pointee(ty), Some((_, PointerKind::RefTo))) {
             let label = format!("{}, a reference wanted", self.show(ty));
             self.report(Diag::new(Code::TypeMismatch, target.span, label).help("write := to assign values"));
@@ -251,7 +258,7 @@ impl Builder<'_> {
     pub(super) fn reference_fits(&self, from: TypeId, to: TypeId) -> bool {
         use PointerKind::*;
         match (self.pointee(from), self.pointee(to)) {
-            (Some((a, RefTo | Reference)), Some((b, RefTo | Reference))) => a == b,
+            (Some((a, RefTo | Reference)), Some((b, RefTo | Reference))) => a == b || self.derives(a, b),
             (Some(_), Some((_, Pointer))) => true,
             (Some((a, Pointer)), Some((b, Reference))) => a == b,
             _ => false,

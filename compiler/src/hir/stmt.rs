@@ -235,6 +235,12 @@ impl Builder<'_> {
             self.error(Code::NotCallable, e.span, "not a call");
             return None;
         };
+        if let Some(call) = self.body_call(callee, args, e.span) {
+            return call;
+        }
+        if let Some(o) = self.method_call(callee, args, e.span) {
+            return (!self.is_bad(&o)).then(|| StmtKind::Call(o.expr));
+        }
         if let Some(call) = self.block_call(callee, args, e.span) {
             return call;
         }

@@ -42,7 +42,12 @@ impl Builder<'_> {
             let decl = self.symbols.pous[id].decl;
             let pragma = decl.test.as_ref()?;
             let pou = decl.name.text.clone();
-            Some(Test { name: pragma.name.clone().unwrap_or_else(|| pou.clone()), pou, scans: pragma.scans, span: decl.name.span })
+            Some(Test {
+                name: pragma.name.clone().unwrap_or_else(|| pou.clone()),
+                pou,
+                scans: pragma.scans,
+                span: decl.name.span,
+            })
         };
         self.test_pous().into_iter().filter_map(test).collect()
     }

@@ -34,7 +34,14 @@ impl Builder<'_> {
     }
 
     fn resolve_pou(&mut self, id: PouId, decl: &ast::Pou) {
-        if decl.kind == ast::PouKind::Function {
+        let kind = self.hir.pous[id].kind;
+        match kind {
+            PouKind::Interface => return self.declare_interface(id, decl),
+            PouKind::Method => self.enter_owner(id),
+            PouKind::Function => {}
+            _ => self.inherit(id, decl),
+        }
+        if kind.is_called_by_value() {
             self.declare_result(id, decl);
         }
         // Constants first: bounds and lengths may use one that is declared further down.
@@ -46,7 +53,7 @@ impl Builder<'_> {
                 self.declare_vars(id, decl, section, d);
             }
         }
-        if decl.kind != ast::PouKind::Function {
+        if !kind.is_called_by_value() {
             self.lay_out(id, decl);
         }
     }
@@ -68,7 +75,15 @@ impl Builder<'_> {
         self.declare_local(&decl.name, Local::Var(var));
     }
 
-    fn push_var(&mut self, id: PouId, name: &ast::Name, ty: TypeId, role: Role, storage: Storage, init: Const) -> VarId {
+    pub(super) fn push_var(
+        &mut self,
+        id: PouId,
+        name: &ast::Name,
+        ty: TypeId,
+        role: Role,
+        storage: Storage,
+        init: Const,
+    ) -> VarId {
         let init = if self.charge(constant::leaves(&init) - 1, name.span) { init } else { Const::Zero };
         let var = Var { name: name.text.clone(), ty, role, storage, init, edge: None, span: name.span };
         self.hir.pous[id].vars.push(var)
@@ -82,7 +97,9 @@ impl Builder<'_> {
         if section.kind == SectionKind::Global {
             return;
         }
+        let outer = std::mem::replace(&mut self.objects.abstract_allowed, section.kind == SectionKind::InOut);
         let used = self.declared_var_type(pou, section, &d.ty);
+        self.objects.abstract_allowed = outer;
         self.check_decl(pou, section, d, used.ty);
         self.check_kept_reference(used.ty, section.retain == Some(true), d.at.is_some(), d.ty.span);
         let init = d.init.as_ref().map_or_else(|| used.default.clone(), |i| self.initial(i, &used));
@@ -110,8 +127,11 @@ impl Builder<'_> {
             _ => Role::Local,
         };
         let var = next(&self.hir.pous[id].vars);
-        if !self.declare_local(name, Local::Var(var)) {
+        if !self.declare_own(id, name, Local::Var(var)) {
             return;
+        }
+        if let Some(access) = section.access {
+            self.objects.var_access.insert((id, var), (access, id));
         }
         let enables = matches!((role, d.init.is_none()), (Role::Input, true)) && name.is("EN")
             || role == Role::Output && d.init.is_none() && name.is("ENO");
@@ -178,7 +198,7 @@ impl Builder<'_> {
     /// The instance: inputs, outputs, in-outs, variables, edge memory (§3.11).
     fn lay_out(&mut self, id: PouId, decl: &ast::Pou) {
         self.add_edge_memory(id);
-        let mut order: Vec<(Section, VarId)> = Vec::new();
+        let mut order = self.inherited_fields(id);
         for (section, role) in [
             (Section::Input, Role::Input),
             (Section::Output, Role::Output),
@@ -190,9 +210,11 @@ impl Builder<'_> {
                 .vars
                 .enumerate()
                 .filter(|(v, var)| var.role == role && self.image.area_of_var(id, *v).is_none());
-            order.extend(vars.map(|(v, _)| (section, v)));
+            let new: Vec<_> = vars.map(|(v, _)| (section, v)).filter(|(_, v)| order.iter().all(|o| o.1 != *v)).collect();
+            order.extend(new);
         }
-        let retained = retained(decl);
+        let mut retained = retained(decl);
+        retained.extend(self.inherited_retain(id));
         let mut members = Vec::new();
         for (i, &(section, v)) in order.iter().enumerate() {
             let var = &mut self.hir.pous[id].vars[v];
@@ -207,6 +229,7 @@ impl Builder<'_> {
         self.hir.types.replace(ty, Type::Instance(record));
         self.defaults.insert(ty, default);
         self.hir.pous[id].instance = Some(ty);
+        self.objects.types.insert(ty, id);
     }
 
     /// The hidden variable of each edge input holds the previous value of the actual input (§3.3).

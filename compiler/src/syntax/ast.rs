@@ -44,7 +44,7 @@ pub enum Item {
     Configuration(Configuration),
 }
 
-/// FUNCTION, FUNCTION_BLOCK or PROGRAM.
+/// FUNCTION, FUNCTION_BLOCK, PROGRAM, CLASS, INTERFACE, or a METHOD of one of the last four.
 #[derive(Clone, Debug)]
 pub struct Pou {
     /// Which.
@@ -57,6 +57,8 @@ pub struct Pou {
     pub sections: Vec<VarSection>,
     /// Statements.
     pub body: Vec<Stmt>,
+    /// What belongs to object orientation: modifiers, heritage, methods.
+    pub objects: Objects,
     /// `{external}` stands before it: the body is a native.
     pub external: bool,
     /// `{extern ..}` in its body: inline C of MATIEC.
@@ -72,6 +74,48 @@ pub enum PouKind {
     Function,
     FunctionBlock,
     Program,
+    Class,
+    Interface,
+    Method,
+}
+
+/// The object-oriented side of a unit (§6.6.5 to §6.6.7).
+#[derive(Clone, Debug, Default)]
+pub struct Objects {
+    /// Of the unit or method itself.
+    pub modifiers: Modifiers,
+    /// EXTENDS: one type, or several interfaces.
+    pub extends: Vec<Name>,
+    /// IMPLEMENTS.
+    pub implements: Vec<Name>,
+    /// Methods, and the GET and SET of properties, in order.
+    pub methods: Vec<Pou>,
+    /// GET or SET of a property, of which a method is made.
+    pub accessor: Option<Accessor>,
+}
+
+/// Words in front of the name of a type or method, each with its place.
+#[derive(Clone, Debug, Default)]
+pub struct Modifiers {
+    pub access: Option<(AccessSpec, Span)>,
+    pub is_abstract: Option<Span>,
+    pub is_final: Option<Span>,
+    pub is_override: Option<Span>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum AccessSpec {
+    Public,
+    Protected,
+    Private,
+    Internal,
+}
+
+/// The two sides of a PROPERTY (vendor).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Accessor {
+    Get,
+    Set,
 }
 
 /// VAR ... END_VAR.
@@ -83,6 +127,8 @@ pub struct VarSection {
     pub constant: bool,
     /// RETAIN (true), NON_RETAIN (false) or neither.
     pub retain: Option<bool>,
+    /// PUBLIC, PROTECTED, PRIVATE, INTERNAL.
+    pub access: Option<AccessSpec>,
     /// Declarations in order.
     pub decls: Vec<VarDecl>,
     /// The opening keyword and its qualifiers.
@@ -435,7 +481,7 @@ pub struct Expr {
 #[derive(Clone, Debug)]
 pub enum ExprKind {
     Literal(Literal),
-    /// A variable, enumerator or function name.
+    /// A variable, enumerator or function name; also THIS and SUPER.
     Name(Name),
     /// `Color#Red`.
     Enumerator {

@@ -66,7 +66,9 @@ mod tests {
         assert_eq!(TestPragma::parse("TEST 'a, b'"), of(Some("a, b"), 1, 10));
         assert_eq!(TestPragma::parse("test 'a', scans := 20, interval := T#5ms"), of(Some("a"), 20, 5));
         assert_eq!(TestPragma::parse("test scans:=3"), of(None, 3, 10));
-        for wrong in ["test 'a", "test scans := 0", "test cycles := 3", "test interval := T#0s", "test scans := x", "test nonsense"] {
+        for wrong in
+            ["test 'a", "test scans := 0", "test cycles := 3", "test interval := T#0s", "test scans := x", "test nonsense"]
+        {
             assert!(TestPragma::parse(wrong).is_err(), "{wrong}");
         }
         assert!(is_test("test") && is_test("Test scans := 1") && !is_test("testing") && !is_test("attribute 'test'"));

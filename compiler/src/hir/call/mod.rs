@@ -23,8 +23,16 @@ use takt_image::TypeId;
 impl Builder<'_> {
     /// A call whose value is used.
     pub fn call(&mut self, callee: &ast::Expr, args: &[ast::Arg], span: Span, want: Option<TypeId>) -> Operand {
-        let o = self.call_any(callee, args, span, want);
-        if let ExprKind::Call { pou, .. } = plain(&o.expr)
+        let o = match self.method_call(callee, args, span) {
+            Some(o) => o,
+            None => self.call_any(callee, args, span, want),
+        };
+        let called = match plain(&o.expr) {
+            ExprKind::Call { pou, .. } => Some(*pou),
+            ExprKind::CallMethod(c) => Some(c.method),
+            _ => None,
+        };
+        if let Some(pou) = &called
             && self.hir.pous[*pou].result.is_none()
         {
             let label = format!("`{}` has no result", self.hir.pous[*pou].name);
@@ -122,7 +130,7 @@ impl Builder<'_> {
     }
 
     /// Looks at the arguments of a call that is wrong, so that what is wrong in them is said too.
-    fn bad_call(&mut self, args: &[ast::Arg], span: Span) -> Operand {
+    pub(super) fn bad_call(&mut self, args: &[ast::Arg], span: Span) -> Operand {
         for e in args.iter().filter_map(super::body::arg_expr) {
             self.operand(e, None);
         }

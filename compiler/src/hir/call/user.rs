@@ -12,27 +12,31 @@ impl Builder<'_> {
     pub(super) fn call_user(&mut self, id: PouId, args: &[ast::Arg], span: Span) -> Operand {
         self.ensure_pou(id, span);
         self.note_call(id, span);
-        let informal = args.iter().any(|a| matches!(a, ast::Arg::Positional(_)));
-        let Some(given) = self.match_arguments(id, args, span) else { return self.bad(span) };
-        let params = self.hir.pous[id].params.clone();
-        if informal && !self.all_inputs_given(id, &given, span) {
-            return self.bad(span);
-        }
-        let mut out = Vec::with_capacity(params.len());
-        for (var, given) in params.into_iter().zip(given) {
-            match self.user_argument(id, var, given, span) {
-                Some(arg) => out.push(arg),
-                None => return self.bad(span),
-            }
-        }
-        let ty = match self.hir.pous[id].result {
-            Some(result) => self.hir.pous[id].vars[result].ty,
-            None => self.bool(),
-        };
+        let Some(args) = self.user_arguments(id, args, span) else { return self.bad(span) };
+        let ty = self.type_of_result(id);
         if ty == self.error {
             return self.bad(span);
         }
-        Operand::fixed(Expr { kind: ExprKind::Call { pou: id, args: out }, ty, span })
+        Operand::fixed(Expr { kind: ExprKind::Call { pou: id, args }, ty, span })
+    }
+
+    /// Type of the result; BOOL if there is none.
+    pub(in crate::hir) fn type_of_result(&mut self, id: PouId) -> takt_image::TypeId {
+        match self.hir.pous[id].result {
+            Some(result) => self.hir.pous[id].vars[result].ty,
+            None => self.bool(),
+        }
+    }
+
+    /// Arguments for all parameters of a function or method; `None` and a report if something is wrong.
+    pub(in crate::hir) fn user_arguments(&mut self, id: PouId, args: &[ast::Arg], span: Span) -> Option<Vec<Arg>> {
+        let informal = args.iter().any(|a| matches!(a, ast::Arg::Positional(_)));
+        let given = self.match_arguments(id, args, span)?;
+        let params = self.hir.pous[id].params.clone();
+        if informal && !self.all_inputs_given(id, &given, span) {
+            return None;
+        }
+        params.into_iter().zip(given).map(|(var, given)| self.user_argument(id, var, given, span)).collect()
     }
 
     /// An informal call gives every input.

@@ -9,7 +9,8 @@ use takt_image::{Elementary, TypeId};
 impl Builder<'_> {
     /// A section of a unit.
     pub fn check_section(&mut self, pou: &ast::Pou, section: &ast::VarSection) {
-        let function = pou.kind == PouKind::Function;
+        let function = matches!(pou.kind, PouKind::Function | PouKind::Method);
+        self.check_object_section(pou, section);
         if section.kind == SectionKind::Global {
             let help = "write VAR_GLOBAL outside of the unit, and VAR_EXTERNAL inside";
             self.report(Diag::new(Code::SectionNotAllowed, section.span, "VAR_GLOBAL in a unit").help(help));
@@ -49,7 +50,7 @@ impl Builder<'_> {
         if d.edge.is_none() {
             return;
         }
-        if section.kind != SectionKind::Input || pou.kind == PouKind::Function {
+        if section.kind != SectionKind::Input || matches!(pou.kind, PouKind::Function | PouKind::Method) {
             self.error(Code::SectionNotAllowed, d.span, "an edge is detected at inputs of function blocks and programs");
         } else if ty != self.error && self.elementary(ty) != Some(Elementary::Bool) {
             let label = format!("{}, BOOL wanted", self.show(ty));
@@ -69,7 +70,7 @@ impl Builder<'_> {
     fn check_instance(&mut self, pou: &ast::Pou, section: &ast::VarSection, ty: TypeId, span: Span) {
         let lost = match section.kind {
             SectionKind::Temp => true,
-            SectionKind::Var | SectionKind::Output => pou.kind == PouKind::Function,
+            SectionKind::Var | SectionKind::Output => matches!(pou.kind, PouKind::Function | PouKind::Method),
             _ => false,
         };
         if lost && self.holds_instance(ty) {

@@ -32,6 +32,15 @@ fn parts(e: &Expr) -> Vec<&Expr> {
         ExprKind::Neg(a) | ExprKind::Not(a) | ExprKind::Convert(_, a) => vec![a],
         ExprKind::Binary(_, a, b) => vec![a, b],
         ExprKind::Call { args, .. } => args.iter().filter_map(|a| if let Arg::Value(e) = a { Some(e) } else { None }).collect(),
+        ExprKind::CallMethod(c) => {
+            let args = c.args.iter().filter_map(|a| if let Arg::Value(e) = a { Some(e) } else { None });
+            match &c.receiver {
+                Receiver::Reference(e) => args.chain([e]).collect(),
+                Receiver::Place(p) => args.chain(indices(p)).collect(),
+            }
+        }
+        ExprKind::AddressOf(place) => indices(place),
+        ExprKind::OfClass(a, _) => vec![a],
         ExprKind::Intrinsic(_, args) | ExprKind::Native { args, .. } => args.iter().collect(),
         ExprKind::Guarded(g) => g.en.iter().chain([&g.call]).collect(),
     }
@@ -54,7 +63,7 @@ fn step_indices(step: &Step) -> Vec<&Expr> {
 fn calls(e: &Expr) -> bool {
     let here = match &e.kind {
         ExprKind::Native { name, .. } => name.starts_with(PREFIX),
-        kind => matches!(kind, ExprKind::Call { .. } | ExprKind::Guarded(_)),
+        kind => matches!(kind, ExprKind::Call { .. } | ExprKind::CallMethod(_) | ExprKind::Guarded(_)),
     };
     here || parts(e).into_iter().any(calls)
 }

@@ -47,6 +47,9 @@ impl Builder<'_> {
         if self.is_bad(&a) || self.is_bad(&b) {
             return self.bad(span);
         }
+        if let Some(o) = self.compare_references(op, &a, &b, span) {
+            return o;
+        }
         let same_enum = is_comparison(op) && a.expr.ty == b.expr.ty;
         let (a, b) = if same_enum { (a, b) } else { (self.decay(a), self.decay(b)) };
         if let Some(o) = self.pointer_operator(op, &a, &b, span) {

@@ -51,11 +51,11 @@ fn arguments_are_unified_as_those_of_the_operator() {
 #[test]
 fn wrong_arguments_are_reported() {
     for (body, codes) in [
-        ("ASSERT();", "P2014 4:1"),
-        ("ASSERT(b1, s, s);", "P2014 4:15"),
-        ("ASSERT_EQ(1);", "P2014 4:1"),
-        ("ASSERT_EQ(1, ACTUAL := 2, EXPECTED := 3);", "P2014 4:39"),
-        ("ASSERT_EQ(EXPECTED := 1, ACTAUL := 2);", "P2015 4:26"),
+        ("ASSERT();", "P2013 4:1"),
+        ("ASSERT(b1, s, s);", "P2013 4:15"),
+        ("ASSERT_EQ(1);", "P2013 4:1"),
+        ("ASSERT_EQ(1, ACTUAL := 2, EXPECTED := 3);", "P2013 4:39"),
+        ("ASSERT_EQ(EXPECTED := 1, ACTAUL := 2);", "P1006 4:26"),
         ("ASSERT(i);", "P2001 4:8"),
         ("ASSERT(b1, 3);", "P2001 4:12"),
         ("ASSERT_EQ(i, s);", "P2002 4:1"),
@@ -79,7 +79,7 @@ fn a_function_of_the_project_wins() {
 #[test]
 fn only_tests_write_inputs_and_have_programs() {
     assert_eq!(in_test("%IX0.0 := TRUE; %IW2 := WORD#5;"), "");
-    assert_eq!(stmt("%IX0.0 := TRUE;"), "P3003 4:1");
+    assert_eq!(stmt("%IX0.0 := TRUE;"), "P3013 4:1");
     let programs = |pragma: &str| {
         check(&format!(
             "PROGRAM Main VAR_INPUT i : INT; END_VAR VAR n : INT; END_VAR n := n + i; END_PROGRAM\n\
@@ -87,8 +87,8 @@ fn only_tests_write_inputs_and_have_programs() {
         ))
     };
     assert_eq!(programs("{test}"), "");
-    assert_eq!(programs(""), "P1005 2:24, P1006 2:62");
-    assert_eq!(check("{test}\nPROGRAM t VAR x : t; END_VAR END_PROGRAM"), "P2010 2:19");
+    assert_eq!(programs(""), "P1004 2:24, P1005 2:62");
+    assert_eq!(check("{test}\nPROGRAM t VAR x : t; END_VAR END_PROGRAM"), "P2015 2:19");
 }
 
 #[test]
@@ -108,7 +108,8 @@ fn a_pragma_stands_before_a_program() {
 
 #[test]
 fn tests_have_tasks_of_their_own() {
-    let text = "PROGRAM main END_PROGRAM {test 'first', scans := 7} PROGRAM a END_PROGRAM {test interval := T#1s} PROGRAM b END_PROGRAM";
+    let text =
+        "PROGRAM main END_PROGRAM {test 'first', scans := 7} PROGRAM a END_PROGRAM {test interval := T#1s} PROGRAM b END_PROGRAM";
     let tasks = |hir: &Hir| hir.tasks.iter().map(|t| format!("{} {:?}", t.name, t.interval)).collect::<Vec<_>>();
     let machine = build(text).hir;
     assert_eq!(machine.tasks.iter().flat_map(|t| &t.programs).map(|p| p.name.as_str()).collect::<Vec<_>>(), ["main"]);

@@ -87,12 +87,17 @@ impl Builder<'_> {
 
     fn instance_type(&mut self, id: PouId, at: Span) -> TypeUse {
         let pou = &self.hir.pous[id];
-        if pou.kind != PouKind::FunctionBlock && !(pou.kind == PouKind::Program && self.in_test()) {
+        if pou.kind == PouKind::Interface {
+            return self.interface_type(id, at);
+        }
+        let tested = pou.kind == PouKind::Program && self.in_test();
+        if !tested && !matches!(pou.kind, PouKind::FunctionBlock | PouKind::Class) {
             let what = if pou.kind == PouKind::Program { "a PROGRAM" } else { "a FUNCTION" };
             let help = "only function blocks have instances; programs are listed in the CONFIGURATION";
             self.report(Diag::new(Code::UnknownType, at, what).message("this is not a type").help(help));
             return self.bad_type();
         }
+        self.check_instantiable(id, at);
         if !self.ensure_pou(id, at) {
             let label = format!("`{}` would contain itself", self.hir.pous[id].name);
             self.error(Code::RecursiveType, at, label);

@@ -17,7 +17,7 @@ use takt_base::Span;
 use takt_image::{Elementary, NativeImport, NativeKind, Scalar, TypeId};
 
 /// Something to copy when a call is over.
-struct WriteBack {
+pub(super) struct WriteBack {
     from: Addr,
     from_ty: TypeId,
     to: Loc,
@@ -26,7 +26,7 @@ struct WriteBack {
 }
 
 /// An argument as it is handed over; the type tells how a scalar is extended for a native.
-type Given = (Value, Option<Elementary>);
+pub(super) type Given = (Value, Option<Elementary>);
 
 impl Unit<'_, '_> {
     /// Calls a function; `None` if it has no result.
@@ -58,7 +58,7 @@ impl Unit<'_, '_> {
     }
 
     /// Register of a scalar result, or the frame place of any other.
-    fn result_place(&mut self, result: Option<TypeId>) -> (Option<Local>, Option<Local>, Option<Value>) {
+    pub(super) fn result_place(&mut self, result: Option<TypeId>) -> (Option<Local>, Option<Local>, Option<Value>) {
         let Some(ty) = result else { return (None, None, None) };
         if let Shape::Scalar(e) = self.shape(ty) {
             let dst = self.f.local(e.scalar());
@@ -90,7 +90,7 @@ impl Unit<'_, '_> {
         }
     }
 
-    fn argument(&mut self, arg: &Arg, param: &Var, before_call: bool, back: &mut Vec<WriteBack>) -> Given {
+    pub(super) fn argument(&mut self, arg: &Arg, param: &Var, before_call: bool, back: &mut Vec<WriteBack>) -> Given {
         match arg {
             Arg::Value(e) => {
                 let value = self.operand(e);
@@ -147,7 +147,7 @@ impl Unit<'_, '_> {
         from
     }
 
-    fn write_back(&mut self, back: Vec<WriteBack>) {
+    pub(super) fn write_back(&mut self, back: Vec<WriteBack>) {
         for w in back {
             self.copy_out(w.from, w.from_ty, w.to, w.to_ty, w.negated);
         }
@@ -175,7 +175,9 @@ impl Unit<'_, '_> {
             self.block_input(pou, this, &pou.vars[*var], arg, &mut back);
         }
         let address = self.f.address(this);
+        let bodies = self.bodies(instance, id);
         match self.program.functions[id] {
+            _ if bodies.len() > 1 => self.call_chosen(address, &bodies, None, &[address]),
             Some(function) => self.f.emit(Op::Call { dst: None, function, args: vec![address] }),
             None => self.call_native_block(pou, address),
         }

@@ -74,6 +74,15 @@ impl Unit<'_, '_> {
                 Value::Scalar(l) => l,
                 _ => unreachable!("a call with a scalar result"),
             },
+            ExprKind::CallMethod(c) => match self.call_method(c, e.span) {
+                Some(Value::Scalar(l)) => l,
+                _ => unreachable!("a method with a scalar result"),
+            },
+            ExprKind::AddressOf(p) => {
+                let addr = self.memory(p, Purpose::Address);
+                self.f.address(addr)
+            }
+            ExprKind::OfClass(a, classes) => self.of_class(a, classes),
             ExprKind::Intrinsic(i, args) => match self.intrinsic(*i, args, e.ty) {
                 Value::Scalar(l) => l,
                 _ => unreachable!("an intrinsic with a scalar result"),
@@ -101,6 +110,7 @@ impl Unit<'_, '_> {
         let mut ty = match p.base {
             Base::Var(v) => self.var(v).ty,
             Base::Global(g) => self.hir.globals[g].ty,
+            Base::This => self.this_type(),
             Base::Image(_) | Base::Value(_) => return p.derefs(),
         };
         for step in &p.path {
@@ -211,6 +221,10 @@ impl Unit<'_, '_> {
                 Value::Text(t) => t,
                 _ => unreachable!("a native with a string result"),
             },
+            ExprKind::CallMethod(c) => match self.call_method(c, e.span) {
+                Some(Value::Text(t)) => t,
+                _ => unreachable!("a method with a string result"),
+            },
             ExprKind::Call { pou, args } => match self.call(*pou, args, e.span) {
                 Some(Value::Text(t)) => t,
                 _ => unreachable!("a function with a string result"),
@@ -275,6 +289,10 @@ impl Unit<'_, '_> {
                 Value::Bytes(a) => a,
                 _ => unreachable!("an intrinsic with an aggregate result"),
             },
+            ExprKind::CallMethod(c) => match self.call_method(c, e.span) {
+                Some(Value::Bytes(a)) => a,
+                _ => unreachable!("a method with an aggregate result"),
+            },
             ExprKind::Call { pou, args } => match self.call(*pou, args, e.span) {
                 Some(Value::Bytes(a)) => a,
                 _ => unreachable!("a function with an aggregate result"),
@@ -312,7 +330,7 @@ impl Unit<'_, '_> {
                 let source = Text { addr: from, capacity: from_capacity, unit };
                 self.copy_text(Text { addr: to, capacity, unit }, source);
             }
-            _ => self.f.emit(Op::CopyBytes { to, from, size: self.hir.types.layout(ty).size }),
+            _ => self.copy_bytes(to, from, ty),
         }
     }
 
@@ -324,7 +342,7 @@ impl Unit<'_, '_> {
                 self.copy_text(Text { addr, capacity, unit }, t);
             }
             (Value::Bytes(from), Loc::Memory(to), _) if from != to => {
-                self.f.emit(Op::CopyBytes { to, from, size: self.hir.types.layout(ty).size });
+                self.copy_bytes(to, from, ty);
             }
             _ => {}
         }

@@ -17,6 +17,7 @@ mod interval;
 mod intrinsic;
 mod lines;
 mod native;
+mod object;
 mod open;
 mod operator;
 mod place;

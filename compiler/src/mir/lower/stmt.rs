@@ -62,6 +62,7 @@ impl Unit<'_, '_> {
                 self.call_statement(&g.call);
                 self.hand_eno(g, None);
             }
+            ExprKind::CallMethod(c) => _ = self.call_method(c, e.span),
             _ => _ = self.operand(e),
         }
     }

@@ -49,6 +49,9 @@ pub struct Unit<'p, 'h> {
     pub f: Builder,
     /// `None` in the entry of a program with connections.
     pub pou: Option<PouId>,
+    /// The running instance, and its type.
+    pub this: Option<Addr>,
+    this_type: Option<takt_image::TypeId>,
     pub homes: IndexVec<VarId, Home>,
     pub open: Vec<OpenArray>,
     pub loops: Vec<LoopEnds>,
@@ -103,6 +106,8 @@ impl<'p, 'h> Unit<'p, 'h> {
             program,
             f,
             pou,
+            this: None,
+            this_type: None,
             homes: IndexVec::new(),
             open: Vec::new(),
             loops: Vec::new(),
@@ -144,7 +149,13 @@ impl<'p, 'h> Unit<'p, 'h> {
         if pou.kind == PouKind::Program {
             self.f.regions.named_instances = 0..0;
         }
+        (self.this, self.this_type) = (Some(at(this)), pou.instance);
         at(this)
+    }
+
+    /// Type of the running instance.
+    pub fn this_type(&self) -> takt_image::TypeId {
+        self.this_type.expect("only types have instances")
     }
 
     /// Adds the parameter with the offset of something of the caller.
@@ -184,7 +195,10 @@ impl<'p, 'h> Unit<'p, 'h> {
     }
 
     fn parameters(&mut self, pou: &'h Pou) {
-        if pou.kind == PouKind::Function {
+        if let Some(owner) = pou.owner {
+            self.instance_param(&self.hir.pous[owner]);
+            self.function_parameters(pou);
+        } else if pou.kind == PouKind::Function {
             self.function_parameters(pou);
         } else {
             self.instance_parameter(pou);
@@ -278,6 +292,7 @@ impl<'p, 'h> Unit<'p, 'h> {
             _ => {
                 let own = self.own_space(id, var);
                 self.copy_aggregate(own, shape, at(local), shape, var.ty);
+                self.set_class(own, var.ty);
                 Home::Memory(own)
             }
         }

@@ -82,6 +82,19 @@ pub fn expression<'a>(e: &'a Expr, on: &mut dyn FnMut(Event<'a>)) {
                 write(&eno.target, on);
             }
         }
+        ExprKind::CallMethod(c) => {
+            match &c.receiver {
+                Receiver::Place(p) => place(p, on),
+                Receiver::Reference(e) => expression(e, on),
+            }
+            c.args.iter().for_each(|a| argument(a, on));
+            c.targets().into_iter().for_each(|t| on(Event::Call(t)));
+        }
+        ExprKind::AddressOf(p) => {
+            place(p, on);
+            on(Event::Lend(p));
+        }
+        ExprKind::OfClass(a, _) => expression(a, on),
         ExprKind::Intrinsic(_, args) | ExprKind::Native { args, .. } => args.iter().for_each(|a| expression(a, on)),
     }
 }

@@ -43,7 +43,7 @@ impl Parser<'_> {
             return None;
         };
         self.bump();
-        let mut section = VarSection { kind, constant: false, retain: None, decls: Vec::new(), span: start };
+        let mut section = VarSection { kind, constant: false, retain: None, access: None, decls: Vec::new(), span: start };
         self.qualifiers(&mut section);
         section.span = self.since(start);
         self.decls(&mut section, start, kw);
@@ -65,10 +65,7 @@ impl Parser<'_> {
                     self.soft(diag.help("write RETAIN: the values are kept over a power failure"));
                     section.retain = Some(true);
                 }
-                Kw::Public | Kw::Private | Kw::Protected | Kw::Internal => {
-                    let what = self.kw().text();
-                    self.unsupported_here(what);
-                }
+                Kw::Public | Kw::Private | Kw::Protected | Kw::Internal => section.access = super::object::access(self.kw()),
                 _ => return,
             }
             self.bump();

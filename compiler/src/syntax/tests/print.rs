@@ -30,6 +30,9 @@ fn pou(pou: &Pou) -> String {
         PouKind::Function => "function",
         PouKind::FunctionBlock => "fb",
         PouKind::Program => "program",
+        PouKind::Class => "class",
+        PouKind::Interface => "interface",
+        PouKind::Method => "method",
     };
     let external = if pou.external { "external" } else { "" };
     let result = optional(&pou.result, |t| format!(": {}", type_ref(t)));
