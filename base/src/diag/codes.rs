@@ -113,6 +113,10 @@ codes! {
     P3012 ResultNeverAssigned "the function never assigns its result" Warning;
     P3013 WriteToInputImage "the input image can't be written";
     P3015 ReferenceKept "a reference can't be retained or located";
+    P3080 AddressLeftOpen "no VAR_CONFIG gives this variable its address";
+    P3081 UnknownInstance "no instance has this path";
+    P3082 NotConfigurable "this can't be given by VAR_CONFIG";
+    P3083 InstanceMismatch "the variable at this path is declared differently";
     P3014 RetainNotKept "retained values are not kept over a restart by this version" Warning;
     P3040 MissingMethod "a method that the type promises is missing";
     P3041 SignatureMismatch "the method differs from the one that it replaces";

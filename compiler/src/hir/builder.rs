@@ -5,7 +5,7 @@ use super::image::ImagePlan;
 use super::model::*;
 use super::scope::Scope;
 use super::symbols::Symbols;
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeMap, HashMap, HashSet};
 use takt_base::{Code, Diag, Profile, Severity, Sink, Sources, Span};
 use takt_image::types::{Record, Type};
 use takt_image::{Elementary, TypeId};
@@ -48,6 +48,10 @@ pub(super) struct Builder<'a> {
     pub tests: bool,
     /// Types with their methods and heritage.
     pub objects: super::objects::Table,
+    /// Program instances of all resources.
+    pub planned: Vec<super::instance::Planned>,
+    /// Initial values of program instances that VAR_CONFIG changes.
+    pub values: BTreeMap<Root, Const>,
     leaves: usize,
     depth: u32,
 }
@@ -77,6 +81,8 @@ impl<'a> Builder<'a> {
             unfolded: false,
             tests: false,
             objects: super::objects::Table::default(),
+            planned: Vec::new(),
+            values: BTreeMap::new(),
             leaves: 0,
             depth: 0,
         }

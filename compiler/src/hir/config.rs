@@ -44,7 +44,8 @@ impl<'a> Builder<'a> {
             let entry = &self.symbols.pous[*id];
             p.kind == PouKind::Program && !entry.library && entry.decl.test.is_none()
         });
-        let programs: Vec<_> = mine.map(|(pou, p)| instance(p.name.clone(), pou)).collect();
+        let mut programs: Vec<_> = mine.map(|(pou, p)| instance(p.name.clone(), pou)).collect();
+        programs.iter_mut().for_each(|p| p.init = self.values.remove(&p.root()));
         for program in &programs {
             let at = self.symbols.pous[program.pou].decl.name.span;
             self.check_bound(program.pou, at);
@@ -147,12 +148,14 @@ impl<'a> Builder<'a> {
             }
         };
         self.check_bound(pou, decl.name.span);
-        if let Some(test) = self.symbols.pous[pou].decl.test.as_ref().map(|_| self.symbols.pous[pou].decl.name.span) {
-            let diag = Diag::new(Code::TestInConfiguration, decl.ty.span, "a unit test").also(test, "declared");
+        let unit = self.symbols.pous[pou].decl;
+        if unit.test.is_some() {
+            let diag = Diag::new(Code::TestInConfiguration, decl.ty.span, "a unit test").also(unit.name.span, "declared");
             self.report(diag.help("tests are run by `takt test`, not by tasks"));
             return None;
         }
         let mut program = instance(decl.name.text.clone(), pou);
+        program.init = self.values.remove(&program.root());
         for arg in &decl.connections {
             self.connect(&mut program, arg, decl.name.span);
         }
@@ -235,7 +238,7 @@ impl<'a> Builder<'a> {
 }
 
 pub(super) fn instance(name: String, pou: PouId) -> ProgramInstance {
-    ProgramInstance { name, pou, inputs: Vec::new(), outputs: Vec::new() }
+    ProgramInstance { name, pou, resource: 0, init: None, inputs: Vec::new(), outputs: Vec::new() }
 }
 
 /// Reports every direct address in a configuration.

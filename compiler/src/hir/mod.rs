@@ -11,6 +11,7 @@ mod call;
 mod chain;
 mod check;
 mod config;
+mod configured;
 mod constant;
 mod convert;
 mod declare;
@@ -18,6 +19,7 @@ mod expr;
 mod il;
 mod image;
 mod init;
+mod instance;
 mod label;
 mod lattice;
 pub mod model;
@@ -31,6 +33,7 @@ mod symbols;
 mod test_tasks;
 mod types;
 mod unit;
+mod vendor;
 
 #[cfg(test)]
 mod tests;
@@ -60,6 +63,8 @@ fn passes<'a>(mut builder: Builder<'a>, files: &'a [(SourceId, ast::File)]) -> B
     builder.collect(files);
     builder.declare_all();
     builder.check_objects();
+    builder.plan_programs();
+    builder.var_config();
     builder.place_image();
     builder.bodies();
     builder.configure();

@@ -33,6 +33,8 @@ pub struct Hir {
     pub globals: IndexVec<GlobalId, Global>,
     /// Tasks with their program instances.
     pub tasks: Vec<Task>,
+    /// Variables of single instances that stand for an address, which VAR_CONFIG gives.
+    pub mirrors: Vec<Mirror>,
     /// Bytes used in %I, %Q, %M: one past the highest address.
     pub image_bytes: [u32; 3],
 }
@@ -166,6 +168,36 @@ pub struct Task {
     pub programs: Vec<ProgramInstance>,
 }
 
+/// What an instance path begins with.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Root {
+    Global(GlobalId),
+    /// A program instance: number of its resource, and its name in capitals.
+    Program(u32, String),
+}
+
+/// A field of one instance that stands for an address: copied in before each program that may use it runs, and back afterwards.
+#[derive(Clone, Debug)]
+pub struct Mirror {
+    pub root: Root,
+    /// Bytes behind the start of the root.
+    pub offset: u32,
+    pub ty: TypeId,
+    /// The address.
+    pub place: ImagePlace,
+    /// In %I: not copied back.
+    pub input: bool,
+    /// Initial value.
+    pub init: Const,
+}
+
+impl Mirror {
+    /// True if a program instance may use it when it runs.
+    pub fn is_seen_by(&self, program: &ProgramInstance) -> bool {
+        matches!(self.root, Root::Global(_)) || self.root == program.root()
+    }
+}
+
 /// A program instance.
 #[derive(Debug)]
 pub struct ProgramInstance {
@@ -173,6 +205,10 @@ pub struct ProgramInstance {
     pub name: String,
     /// Its type.
     pub pou: PouId,
+    /// Number of its resource.
+    pub resource: u32,
+    /// Initial value of the whole instance, if VAR_CONFIG gives one to a part of it.
+    pub init: Option<Const>,
     /// Copied before each run: input (or output) variable of the program, value.
     pub inputs: Vec<(VarId, Expr)>,
     /// Copied after each run.
@@ -451,6 +487,13 @@ pub enum Step {
     Part { bit: u32, width: u32 },
     /// Character of a string, from 1; traps (StringIndex) outside of the current length.
     Character(Box<Expr>),
+}
+
+impl ProgramInstance {
+    /// What paths to it begin with.
+    pub fn root(&self) -> Root {
+        Root::Program(self.resource, self.name.to_ascii_uppercase())
+    }
 }
 
 impl Hir {

@@ -3,6 +3,7 @@
 use super::builder::Builder;
 use super::constant;
 use super::convert::{Operand, constant_expr};
+use super::image::Owner;
 use super::model::*;
 use super::scope::{Local, ReadOnly};
 use super::symbols::Unit;
@@ -170,6 +171,7 @@ impl Builder<'_> {
         let access = match () {
             () if global.constant => Access::Constant(global.span),
             () if self.image.area_of_global(id) == Some(ast::Area::Input) => Access::InputImage,
+            () if self.image.open_area(Owner::Global(id)) == Some(ast::Area::Input) => Access::InputImage,
             () => Access::Write,
         };
         Some(Target { place: Place { base: Base::Global(id), path: Vec::new(), ty: global.ty, span: n.span }, access })
@@ -182,6 +184,7 @@ impl Builder<'_> {
             Some(ReadOnly::Constant) => Access::Constant(var.span),
             Some(ReadOnly::Input) => Access::OwnInput(var.span),
             None if self.image.area_of_var(pou, id) == Some(ast::Area::Input) => Access::InputImage,
+            None if self.image.open_area(Owner::Var(pou, id)) == Some(ast::Area::Input) => Access::InputImage,
             None => Access::Write,
         };
         Target { place: Place { base: Base::Var(id), path: Vec::new(), ty: var.ty, span }, access }
@@ -229,6 +232,10 @@ impl Builder<'_> {
             }
         };
         let index = record.fields.iter().rposition(|f| name.is(&f.name) && f.section != Section::Hidden);
+        let index = index.or_else(|| {
+            let pin = self.vendor_pin(base.place.ty, name)?;
+            record.fields.iter().rposition(|f| f.name == pin)
+        });
         let Some(index) = index else {
             let known = record.fields.iter().filter(|f| f.section != Section::Hidden).map(|f| f.name.clone()).collect();
             if self.method_without_call(base.place.ty, name) {

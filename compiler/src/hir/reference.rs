@@ -39,11 +39,11 @@ impl Builder<'_> {
         if let ast::TypeRefKind::Named(name) = &t.kind
             && Elementary::from_name(&name.text).is_none()
         {
-            match self.symbols.units.get(&name.key()) {
-                Some(&(Unit::Type(index), _)) if matches!(self.symbols.types[index].decl.body, ast::TypeBody::Struct(_)) => {
+            match self.named_unit(name) {
+                Some(Unit::Type(index)) if matches!(self.symbols.types[index].decl.body, ast::TypeBody::Struct(_)) => {
                     return self.reserved_type(index);
                 }
-                Some(&(Unit::Pou(id), _)) if self.hir.pous[id].kind == PouKind::FunctionBlock => {
+                Some(Unit::Pou(id)) if self.hir.pous[id].kind == PouKind::FunctionBlock => {
                     return self.reserved_instance(id);
                 }
                 _ => {}

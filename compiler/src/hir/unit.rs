@@ -152,7 +152,11 @@ impl Builder<'_> {
         if let Some(edge) = d.edge {
             self.hir.pous[id].vars[var].edge = Some((edge, var));
         }
-        if let Some(at) = d.at.as_ref().filter(|_| pou.kind == ast::PouKind::Program && section.kind == SectionKind::Var) {
+        let may_locate = |at: &&ast::Address| {
+            let kind = pou.kind == ast::PouKind::Program || pou.kind == ast::PouKind::FunctionBlock && at.path.is_empty();
+            kind && section.kind == SectionKind::Var
+        };
+        if let Some(at) = d.at.as_ref().filter(may_locate) {
             self.locate_var(id, var, at);
             if at.area == ast::Area::Input {
                 self.hir.pous[id].vars[var].init = Const::Zero;

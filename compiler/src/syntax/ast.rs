@@ -2,8 +2,10 @@
 //! From: IEC 61131-3 edition 3, §6 and §7.3. Shared by all textual languages.
 #![allow(missing_docs)] // the names of fields and variants say it; what they do not say stands beside them
 
+mod config;
 mod operator;
 
+pub use config::{AccessDecl, ConfigDecl, Configuration, InstancePath, PathPart, ProgramDecl, Resource, TaskDecl};
 pub use operator::{BinaryOp, UnaryOp};
 use takt_base::Span;
 
@@ -129,6 +131,8 @@ pub struct VarSection {
     pub retain: Option<bool>,
     /// PUBLIC, PROTECTED, PRIVATE, INTERNAL.
     pub access: Option<AccessSpec>,
+    /// PERSISTENT (vendor): kept over a cold start too.
+    pub persistent: bool,
     /// Declarations in order.
     pub decls: Vec<VarDecl>,
     /// The opening keyword and its qualifiers.
@@ -328,45 +332,6 @@ impl Init {
             Init::Array(_, s) | Init::Struct(_, s) => *s,
         }
     }
-}
-
-/// CONFIGURATION ... END_CONFIGURATION.
-#[derive(Clone, Debug)]
-pub struct Configuration {
-    /// Its name.
-    pub name: Name,
-    /// Configuration globals.
-    pub globals: Vec<VarSection>,
-    /// Resources; one without a name if tasks and programs stand directly in the configuration.
-    pub resources: Vec<Resource>,
-}
-
-/// RESOURCE name ON type.
-#[derive(Clone, Debug)]
-pub struct Resource {
-    pub name: Option<Name>,
-    pub globals: Vec<VarSection>,
-    pub tasks: Vec<TaskDecl>,
-    pub programs: Vec<ProgramDecl>,
-}
-
-/// `TASK name (SINGLE := s, INTERVAL := T#10ms, PRIORITY := 1);`
-#[derive(Clone, Debug)]
-pub struct TaskDecl {
-    pub name: Name,
-    pub single: Option<Expr>,
-    pub interval: Option<Expr>,
-    pub priority: Option<Expr>,
-}
-
-/// `PROGRAM name WITH task : Type (in := global, out => global);`
-#[derive(Clone, Debug)]
-pub struct ProgramDecl {
-    pub name: Name,
-    pub retain: Option<bool>,
-    pub task: Option<Name>,
-    pub ty: Name,
-    pub connections: Vec<Arg>,
 }
 
 /// A statement.

@@ -60,7 +60,8 @@ impl Builder<'_> {
 
     fn check_address(&mut self, pou: &ast::Pou, section: &ast::VarSection, d: &ast::VarDecl) {
         let Some(at) = &d.at else { return };
-        if pou.kind != PouKind::Program || section.kind != SectionKind::Var {
+        let open = at.path.is_empty() && pou.kind == PouKind::FunctionBlock;
+        if !open && pou.kind != PouKind::Program || section.kind != SectionKind::Var {
             let help = "locate variables in VAR of a program or in VAR_GLOBAL";
             self.report(Diag::new(Code::SectionNotAllowed, at.span, "an address").help(help));
         }

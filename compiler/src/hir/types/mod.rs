@@ -74,9 +74,10 @@ impl Builder<'_> {
             let ty = self.bool();
             return self.plain(ty);
         }
-        match self.symbols.units.get(&name.key()) {
-            Some(&(Unit::Type(index), _)) => self.declared_type(index, name.span),
-            Some(&(Unit::Pou(id), _)) => self.instance_type(id, name.span),
+        match self.named_unit(name) {
+            Some(Unit::Type(index)) => self.declared_type(index, name.span),
+            Some(Unit::Pou(id)) => self.instance_type(id, name.span),
+            None if self.is_vendor_block(name) => self.bad_type(),
             None => {
                 let known = self.unit_names().into_iter().chain(Elementary::ALL.iter().map(|e| e.name().to_owned())).collect();
                 self.unknown(Code::UnknownType, name, known);

@@ -3,7 +3,7 @@
 //! What has no address of its own (a bit of the process image, a part of a word) is lent through a place on the frame and written
 //! back after the call.
 
-use super::builder::behind;
+use super::builder::{behind, fixed};
 use super::expr::{Text, Value};
 use super::native::slot_of;
 use super::place::{Loc, field};
@@ -14,6 +14,7 @@ use super::walk::argument_calls;
 use crate::hir::model::*;
 use crate::mir::model::*;
 use takt_base::Span;
+use takt_image::image::Place as ImagePlace;
 use takt_image::{Elementary, NativeImport, NativeKind, Scalar, TypeId};
 
 /// Something to copy when a call is over.
@@ -231,10 +232,13 @@ impl Unit<'_, '_> {
             let value = self.operand(value);
             self.assign(to, var.ty, value);
         }
+        let mirrors: Vec<_> = self.hir.mirrors.iter().filter(|m| m.is_seen_by(instance)).collect();
+        mirrors.iter().for_each(|m| self.copy_mirror(m, this, true));
         let args = vec![self.f.address(this)];
         if let Some(function) = self.program.functions[instance.pou] {
             self.f.emit(Op::Call { dst: None, function, args });
         }
+        mirrors.iter().filter(|m| !m.input).for_each(|m| self.copy_mirror(m, this, false));
         for (var, target) in &instance.outputs {
             self.at_line(target.span);
             let var = &pou.vars[*var];
@@ -249,6 +253,27 @@ impl Unit<'_, '_> {
             }
         }
         self.f.end(End::Return(None));
+    }
+
+    /// From the process image into a field of an instance, or back.
+    fn copy_mirror(&mut self, m: &Mirror, this: Addr, inward: bool) {
+        let field = match &m.root {
+            Root::Program(..) => behind(this, m.offset),
+            Root::Global(g) => match self.program.data.globals[*g] {
+                ImagePlace::Byte(offset) => fixed(offset + m.offset),
+                ImagePlace::Bit(..) => return,
+            },
+        };
+        let (field, image) = (Loc::Memory(field), super::place::image_loc(m.place));
+        let (to, from) = if inward { (field, image) } else { (image, field) };
+        match (self.shape(m.ty), to, from) {
+            (Shape::Scalar(_), ..) => {
+                let value = self.load(from, m.ty);
+                self.store(to, value);
+            }
+            (shape, Loc::Memory(to), Loc::Memory(from)) => self.copy_aggregate(to, shape, from, shape, m.ty),
+            _ => {}
+        }
     }
 
     fn program_pin(&self, pou: &Pou, this: Addr, var: &Var) -> Loc {

@@ -73,6 +73,10 @@ impl Data {
         for (program, offset) in programs {
             let pou = &hir.pous[program.pou];
             let Some(ty) = pou.instance else { continue };
+            if let Some(init) = &program.init {
+                constant(&hir.types, globals, ty, init, &mut |at, bytes| chunks.put(offset + at, bytes));
+                continue;
+            }
             for var in pou.vars.iter() {
                 if let Some(field) = field_offset(hir, ty, var) {
                     constant(&hir.types, globals, var.ty, &var.init, &mut |at, bytes| chunks.put(offset + field + at, bytes));
@@ -169,7 +173,8 @@ fn image_contents(hir: &Hir, map: &MemoryMap, globals: &Globals, chunks: &mut Ch
         Storage::Image(place) => Some((place, v.ty, &v.init)),
         _ => None,
     });
-    for (place, ty, init) in located.chain(in_programs) {
+    let mirrors = hir.mirrors.iter().map(|m| (m.place, m.ty, &m.init));
+    for (place, ty, init) in located.chain(in_programs).chain(mirrors) {
         constant(&hir.types, globals, ty, init, &mut |at, value| match place {
             ImagePlace::Byte(offset) => {
                 value.iter().enumerate().for_each(|(i, b)| _ = bytes.insert(offset + at + i as u32, *b));

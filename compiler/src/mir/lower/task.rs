@@ -23,7 +23,7 @@ fn task(program: &mut Program<'_>, module: &mut Module, t: &Task, number: usize)
 }
 
 fn entry(program: &mut Program<'_>, module: &mut Module, p: &ProgramInstance, instance: u32, t: &Task) -> image::Program {
-    let connected = !p.inputs.is_empty() || !p.outputs.is_empty();
+    let connected = !p.inputs.is_empty() || !p.outputs.is_empty() || program.hir.mirrors.iter().any(|m| m.is_seen_by(p));
     let function = if connected {
         module.functions.push(wrapper(program, p, &t.name)).index() as u32
     } else {

@@ -9,6 +9,7 @@ mod decl;
 mod expr;
 pub(crate) mod il;
 mod init;
+mod instance;
 mod literal;
 mod loops;
 mod object;

@@ -43,7 +43,8 @@ impl Parser<'_> {
             return None;
         };
         self.bump();
-        let mut section = VarSection { kind, constant: false, retain: None, access: None, decls: Vec::new(), span: start };
+        let mut section =
+            VarSection { kind, constant: false, retain: None, access: None, persistent: false, decls: Vec::new(), span: start };
         self.qualifiers(&mut section);
         section.span = self.since(start);
         self.decls(&mut section, start, kw);
@@ -61,9 +62,8 @@ impl Parser<'_> {
                 Kw::Retain => section.retain = Some(true),
                 Kw::NonRetain => section.retain = Some(false),
                 Kw::Persistent if self.nth(1).kind == Tok::Word => {
-                    let diag = self.unsupported_diag("PERSISTENT");
-                    self.soft(diag.help("write RETAIN: the values are kept over a power failure"));
-                    section.retain = Some(true);
+                    self.codesys_form("PERSISTENT");
+                    section.persistent = true;
                 }
                 Kw::Public | Kw::Private | Kw::Protected | Kw::Internal => section.access = super::object::access(self.kw()),
                 _ => return,
@@ -153,7 +153,7 @@ impl Parser<'_> {
     }
 
     /// The address behind AT; the inner `None` stands for one that was reported.
-    fn located(&mut self) -> Option<Option<Address>> {
+    pub(super) fn located(&mut self) -> Option<Option<Address>> {
         if !self.at(Tok::Direct) {
             self.expected("a direct address such as %IX0.0");
             return None;
