@@ -87,7 +87,7 @@ fn only_tests_write_inputs_and_have_programs() {
         ))
     };
     assert_eq!(programs("{test}"), "");
-    assert_eq!(programs(""), "P1004 2:24, P1005 2:62");
+    assert_eq!(programs(""), "P1004 2:20");
     assert_eq!(check("{test}\nPROGRAM t VAR x : t; END_VAR END_PROGRAM"), "P2015 2:19");
 }
 
