@@ -82,12 +82,12 @@ impl Report {
         let mut out = String::new();
         for o in &self.outcomes {
             let word = if o.is_ok() { "ok    " } else { "FAILED" };
-            let scans = if o.scans == 1 { "" } else { "s" };
-            let _ = writeln!(out, "{word} {} ({} scan{scans}, {} assertions)", o.test.name, o.scans, o.passed + o.failed);
+            let (scans, assertions) = (counted(o.scans, "scan"), counted(o.passed + o.failed, "assertion"));
+            let _ = writeln!(out, "{word} {} ({scans}, {assertions})", o.test.name);
             out.extend(o.lines().iter().map(|line| format!("  {line}\n")));
         }
         let (count, failed) = (self.outcomes.len(), self.failed());
-        let _ = writeln!(out, "{count} tests: {} passed, {failed} failed", count - failed);
+        let _ = writeln!(out, "{}: {} passed, {failed} failed", counted(count as u64, "test"), count - failed);
         out
     }
 
@@ -162,6 +162,11 @@ fn escape(text: &str) -> String {
         }
     }
     out
+}
+
+/// `1 test`, `2 tests`.
+fn counted(n: u64, what: &str) -> String {
+    format!("{n} {what}{}", if n == 1 { "" } else { "s" })
 }
 
 fn one_line(text: &str) -> String {

@@ -78,7 +78,7 @@ fn tests_that_pass() {
     for engine in ENGINES {
         let ran = test_with(&path, &["--engine", engine]);
         assert_eq!((ran.status, ran.stderr.as_str()), (0, ""));
-        let wanted = "ok     one (1 scan, 1 assertions)\nok     two (3 scans, 3 assertions)\n2 tests: 2 passed, 0 failed\n";
+        let wanted = "ok     one (1 scan, 1 assertion)\nok     two (3 scans, 3 assertions)\n2 tests: 2 passed, 0 failed\n";
         assert_eq!(ran.stdout, wanted);
         let ran = test_with(&path, &["--format", "tap", "--engine", engine]);
         assert_eq!((ran.status, ran.stdout.as_str()), (0, "TAP version 14\n1..2\nok 1 - one\nok 2 - two\n"));
@@ -95,9 +95,9 @@ fn failures_say_where_and_what() {
         let wanted = "FAILED counts <\"&\"> (3 scans, 3 assertions)
   bad.st:10, scan 2: expected 1, actual 2: it counts & \"on\"
   bad.st:10, scan 3: expected 1, actual 3: it counts & \"on\"
-FAILED divides (2 scans, 1 assertions)
+FAILED divides (2 scans, 1 assertion)
   bad.st:17, scan 2: fault F0701: integer division by zero in divides
-ok     good (1 scan, 1 assertions)
+ok     good (1 scan, 1 assertion)
 3 tests: 1 passed, 2 failed
 ";
         assert_eq!(ran.stdout, wanted, "{engine}");
@@ -161,7 +161,7 @@ fn json_has_everything() {
 fn a_filter_chooses() {
     let path = file("test-filter", "bad.st", BAD);
     let ran = test_with(&path, &["--filter", "GOOD"]);
-    assert_eq!((ran.status, ran.stdout.as_str()), (0, "ok     good (1 scan, 1 assertions)\n1 tests: 1 passed, 0 failed\n"));
+    assert_eq!((ran.status, ran.stdout.as_str()), (0, "ok     good (1 scan, 1 assertion)\n1 test: 1 passed, 0 failed\n"));
     assert_eq!(test_with(&path, &["--filter", "div"]).status, 1);
     let ran = test_with(&path, &["--filter", "no such test"]);
     assert_eq!((ran.status, ran.stdout.as_str()), (0, "0 tests: 0 passed, 0 failed\n"));
@@ -312,6 +312,6 @@ fn the_example_and_a_new_project_pass() {
     assert_eq!(takt_in(&dir, &["new", "machine"]).status, 0);
     let ran = takt_in(&dir, &["test", "machine"]);
     assert_eq!((ran.status, ran.stderr.as_str()), (0, ""));
-    assert!(ran.stdout.ends_with("1 tests: 1 passed, 0 failed\n"), "{}", ran.stdout);
+    assert!(ran.stdout.ends_with("1 test: 1 passed, 0 failed\n"), "{}", ran.stdout);
     assert!(root().join("docs/guide/testing.md").exists());
 }
