@@ -9,6 +9,7 @@ use std::rc::Rc;
 use std::sync::Arc;
 use takt_base::{Code, Nanos, Profile};
 use takt_compiler::driver::{self, Compilation, File};
+use takt_compiler::hir::Test;
 use takt_compiler::mir::{Interpreter, model::Module};
 use takt_image::value::VarType;
 use takt_image::{Elementary, Engine, Image, encode};
@@ -42,19 +43,24 @@ pub enum EngineKind {
 
 /// Parses, checks and compiles; messages stay in the answer.
 pub fn compile(project: &Project) -> Result<Compilation, Problem> {
+    Ok(driver::compile(to_compile(project)?))
+}
+
+/// What the compiler is given.
+fn to_compile(project: &Project) -> Result<driver::Project, Problem> {
     let machine = project::machine(&project.keys)?;
     let interval = project.keys.task.interval.as_deref();
     let text = Machine::declarations(&machine).into_bytes();
     let declarations = File { name: "machine.st".into(), bytes: text, library: true, profile: Profile::Std };
     let sources =
         project.sources.iter().map(|s| File { name: s.name.clone(), bytes: s.bytes.clone(), library: false, profile: s.profile });
-    Ok(driver::compile(driver::Project {
+    Ok(driver::Project {
         name: project.name.clone(),
         files: std::iter::once(declarations).chain(sources).collect(),
         attachments: attachments(project),
         interval: interval.map(task_interval).transpose()?,
         native: true,
-    }))
+    })
 }
 
 /// `task.interval`, which can't be zero.
@@ -88,6 +94,18 @@ impl Session {
         Ok(Some(Self { name: project.name, image, module, keys: project.keys, machine, root: project.root }))
     }
 
+    /// Compiles the unit tests of a project. Messages go to stderr; `None` if there are errors.
+    pub fn open_tests(paths: &[PathBuf], profile: Option<Profile>) -> Result<Option<(Self, Vec<Test>)>, Problem> {
+        let project = project::load(paths, profile)?;
+        let machine = project::machine(&project.keys)?;
+        let (compilation, tests) = driver::compile_tests(to_compile(&project)?);
+        diagnostics::print(&compilation.diags, &compilation.sources);
+        let Some(image) = compilation.image else { return Ok(None) };
+        let module = compilation.module.map(Arc::new);
+        let session = Self { name: project.name, image, module, keys: project.keys, machine, root: project.root };
+        Ok(Some((session, tests)))
+    }
+
     fn from_image(file: &Path) -> Result<Self, Problem> {
         let bad = |e: &dyn std::fmt::Display| Problem::File(Code::BadImage, format!("{}: {e}", file.display()));
         let image = encode::decode(&project::read(file)?).map_err(|e| bad(&e))?;
@@ -116,20 +134,29 @@ impl Session {
         Rc::new(RefCell::new(Machine::new(&self.machine, Box::new(files), background)))
     }
 
-    /// A resource on this machine. Call it on the thread that will run it.
-    pub fn resource(&self, machine: Rc<RefCell<Machine>>, engine: EngineKind, options: Options) -> Result<Resource, Problem> {
-        let mut host = PlcHost::new(machine);
+    /// A resource on this host. Call it on the thread that will run it.
+    pub fn resource(&self, host: PlcHost, engine: EngineKind, options: Options) -> Result<Resource, Problem> {
+        self.resource_of(self.image.clone(), host, engine, options)
+    }
+
+    /// The same with the tasks of another image.
+    pub fn resource_of(
+        &self,
+        image: Image,
+        mut host: PlcHost,
+        engine: EngineKind,
+        options: Options,
+    ) -> Result<Resource, Problem> {
         let engine: Box<dyn Engine> = match (engine, &self.module) {
-            (EngineKind::Native, _) => Box::new(NativeEngine::new(&self.image, &mut host).map_err(refused)?),
+            (EngineKind::Native, _) => Box::new(NativeEngine::new(&image, &mut host).map_err(refused)?),
             (EngineKind::Interpreter, Some(module)) => {
-                let bound =
-                    Interpreter::bind(module, &mut host, &self.image.types).map_err(|e| refused_text(format!("{e:?}")))?;
-                let engine = Interpreter::new(Arc::clone(module), bound, self.image.memory.frames);
+                let bound = Interpreter::bind(module, &mut host, &image.types).map_err(|e| refused_text(format!("{e:?}")))?;
+                let engine = Interpreter::new(Arc::clone(module), bound, image.memory.frames);
                 Box::new(engine.map_err(|e| refused_text(format!("{e:?}")))?)
             }
             (EngineKind::Interpreter, None) => return Err(refused_text("an image file holds native code alone".into())),
         };
-        Resource::new(self.image.clone(), engine, Box::new(host), options).map_err(refused)
+        Resource::new(image, engine, Box::new(host), options).map_err(refused)
     }
 
     /// Where `takt run` keeps retained values.

@@ -51,11 +51,26 @@ pub struct Compilation {
 
 /// Compiles a project.
 pub fn compile(project: Project) -> Compilation {
-    let sources = sources(&project.files);
-    let mut sink = Sink::new();
-    let files: Vec<_> = sources.iter().map(|(id, _)| (id, syntax::parse(&sources, id, &mut sink))).collect();
+    let (sources, mut sink) = (sources(&project.files), Sink::new());
+    let files = parse(&sources, &mut sink);
     let mut hir = hir::build(&files, &sources, &mut sink);
     set_interval(&mut hir, &files, project.interval);
+    compilation(hir, sources, project, sink)
+}
+
+/// Compiles the unit tests of a project: the image has a task for each, in the same order, and no others.
+pub fn compile_tests(project: Project) -> (Compilation, Vec<hir::Test>) {
+    let (sources, mut sink) = (sources(&project.files), Sink::new());
+    let files = parse(&sources, &mut sink);
+    let (hir, tests) = hir::build_tests(&files, &sources, &mut sink);
+    (compilation(hir, sources, project, sink), tests)
+}
+
+fn parse(sources: &Sources, sink: &mut Sink) -> Vec<(SourceId, ast::File)> {
+    sources.iter().map(|(id, _)| (id, syntax::parse(sources, id, sink))).collect()
+}
+
+fn compilation(hir: Hir, sources: Sources, project: Project, mut sink: Sink) -> Compilation {
     let built = if sink.has_errors() { None } else { finish(hir, &sources, project, &mut sink) };
     let (image, module) = built.unzip();
     Compilation { diags: sink.into_sorted(), sources, image, module }

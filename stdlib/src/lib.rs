@@ -1,5 +1,6 @@
 //! The IEC 61131-3 standard library: a catalogue of functions, function blocks in ST, and natives where ST can't say it.
 
+pub mod asserts;
 pub mod calendar;
 pub mod catalog;
 pub mod lookup;

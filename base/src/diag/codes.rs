@@ -1,6 +1,6 @@
 //! Every diagnostic and fault code, once. A code is for ever: never reused, never renumbered.
 //!
-//! P0 text, P1 names, P2 types, P3 program rules, P4 tasks and configuration; P5 Instruction List; N g-code; C project and image files; F runtime faults, whose number is
+//! P0 text, P1 names, P2 types, P3 program rules, P4 tasks and configuration; P5 Instruction List; N g-code; C project and image files; T tests; F runtime faults, whose number is
 //! the ErrorID word of a function block in hexadecimal. Each has a page in `docs/codes/`, which `takt explain` prints.
 
 use super::Severity;
@@ -168,6 +168,10 @@ codes! {
     C0006 BadStimulus "the stimulus file is not well formed";
     C0007 UnknownPath "no variable has this path";
     C0008 BadValueText "this text is not a value of the variable's type";
+
+    // --- T tests ---
+    T0001 BadTestPragma "this `{test}` pragma is not understood";
+    T0002 TestInConfiguration "a task can't run a unit test";
 
     // --- F runtime faults and ErrorID numbers ---
     F0001 ParameterOutOfRange "a parameter is out of range";

@@ -1,9 +1,10 @@
 //! `takt run`: runs in real time until the project says so, a fault, or Ctrl-C.
 
+use crate::host::PlcHost;
 use crate::progress::{self, Display, Reporter};
 use crate::project::{self, Problem};
 use crate::session::{EngineKind, Session, with_stimulus};
-use crate::{Status, duration, report, retain};
+use crate::{Status, asserts, duration, report, retain};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -14,6 +15,7 @@ use takt_image::retain::Start;
 use takt_motion::machine::Background;
 use takt_runtime::realtime::{Request, enter, on_program_thread};
 use takt_runtime::{Monotonic, Progress};
+use takt_stdlib::asserts::Asserts;
 
 /// Run in real time
 #[derive(clap::Args)]
@@ -92,7 +94,9 @@ fn real_time(
     started: mpsc::Sender<Arc<Progress>>,
 ) -> Result<Outcome, Problem> {
     let machine = session.machine(Background::Thread);
-    let resource = session.resource(machine.clone(), EngineKind::Native, session.options()?)?;
+    let asserts = Asserts::default();
+    let host = PlcHost::new(machine.clone(), asserts.clone());
+    let resource = session.resource(host, EngineKind::Native, session.options()?)?;
     let start = if args.cold { Start::Cold } else { Start::Warm };
     let resource = retain::restore(&session.image, resource, &session.retain_file(), start);
     let mut resource = with_stimulus(resource, session.stimulus(None)?);
@@ -116,10 +120,12 @@ fn real_time(
     }
     let end = machine.borrow().report();
     resource.stop(&mut clock);
+    asserts::report(&asserts.borrow(), &image.types);
     report::faults(&resource);
     let machine = machine.borrow();
     let mut summary = format!("{}: {:.2} s, {real_time}\n", session.name, resource.counts().now.as_secs());
     summary += &report::tasks(&resource);
+    summary += &asserts::summary(&asserts.borrow());
     summary += &report::machine(&end, &session.machine);
     if let Some(path) = picture_path(args, session) {
         summary += &write_picture(&path, session, machine.trace())?;

@@ -1,9 +1,10 @@
 //! `takt sim`: runs in virtual time, as fast as it can. The same inputs give the same outputs, bit for bit.
 
+use crate::host::PlcHost;
 use crate::project::Problem;
 use crate::session::{EngineKind, Session, with_stimulus};
 use crate::watch::Watch;
-use crate::{Status, duration, report, retain};
+use crate::{Status, asserts, duration, report, retain};
 use serde_json::json;
 use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
@@ -12,6 +13,7 @@ use takt_image::retain::Start;
 use takt_image::value::Patch;
 use takt_motion::machine::Background;
 use takt_runtime::{FaultReport, Options, Resource, Stimulus, Virtual, When};
+use takt_stdlib::asserts::Asserts;
 
 /// Run in virtual time
 #[derive(clap::Args)]
@@ -88,7 +90,9 @@ fn simulate(args: &Args, session: &Session) -> Result<Status, Problem> {
     let machine = session.machine(Background::Inline);
     let engine = if args.engine == "interp" { EngineKind::Interpreter } else { EngineKind::Native };
     let options = Options { measure: false, ..session.options()? };
-    let resource = session.resource(machine.clone(), engine, options)?;
+    let asserts = Asserts::default();
+    let host = PlcHost::new(machine.clone(), asserts.clone());
+    let resource = session.resource(host, engine, options)?;
     let start = if args.cold { Start::Cold } else { Start::Warm };
     let resource = match &args.retain {
         Some(file) => retain::restore(&session.image, resource, file, start),
@@ -107,6 +111,7 @@ fn simulate(args: &Args, session: &Session) -> Result<Status, Problem> {
     if args.format == "json" {
         print_json(session, &watch, &resource, fault.as_ref());
     }
+    asserts::report(&asserts.borrow(), &session.image.types);
     report::faults(&resource);
     Ok(if fault.is_some() { Status::Fault } else { Status::Success })
 }

@@ -44,6 +44,8 @@ pub(super) struct Builder<'a> {
     pub guards_next: bool,
     /// A call with EN or ENO is being put together: it stays for the run time, where it tells its errors by ENO.
     pub unfolded: bool,
+    /// The tests are the machine: see `hir::build_tests`.
+    pub tests: bool,
     /// Types with their methods and heritage.
     pub objects: super::objects::Table,
     /// Program instances of all resources.
@@ -77,6 +79,7 @@ impl<'a> Builder<'a> {
             bit_members: HashMap::new(),
             guards_next: false,
             unfolded: false,
+            tests: false,
             objects: super::objects::Table::default(),
             planned: Vec::new(),
             values: BTreeMap::new(),

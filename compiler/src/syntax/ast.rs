@@ -65,6 +65,8 @@ pub struct Pou {
     pub external: bool,
     /// `{extern ..}` in its body: inline C of MATIEC.
     pub inline_c: Option<Span>,
+    /// `{test}` stands before it.
+    pub test: Option<super::test_pragma::TestPragma>,
     /// From the first to the last keyword.
     pub span: Span,
 }

@@ -145,6 +145,8 @@ pub(crate) struct Tokens {
     pub(crate) external: Vec<usize>,
     /// Inline C of MATIEC: the position in `list` behind it, and its place; ascending.
     pub(crate) inline_c: Vec<(usize, Span)>,
+    /// `{test ...}` pragmas: position in `list` of the token that follows, and text with its place, ascending.
+    pub(crate) tests: Vec<(usize, String, Span)>,
     /// A comment or pragma that is not closed (and has been reported) hides the end of the text.
     pub(crate) cut: bool,
 }
@@ -164,6 +166,7 @@ pub(crate) fn lex(text: &str, source: SourceId, profile: Profile, report: &mut R
         nested,
         external: Vec::new(),
         inline_c: Vec::new(),
+        tests: Vec::new(),
         conditional: Conditional::default(),
         profile,
         cut: false,
@@ -193,7 +196,7 @@ pub(crate) fn lex(text: &str, source: SourceId, profile: Profile, report: &mut R
     scan.close_conditional();
     let end = text.len() as u32;
     list.push(Token { kind: Tok::Eof, kw: Kw::None, start: end, end });
-    Tokens { list, external: scan.external, inline_c: scan.inline_c, cut: scan.cut }
+    Tokens { list, external: scan.external, inline_c: scan.inline_c, tests: scan.tests, cut: scan.cut }
 }
 
 /// The word that opens a graphical body in a CODESYS 2 export (language reference §17).
@@ -209,6 +212,7 @@ struct Scan<'t, 'r, 's> {
     report: &'r mut Report<'s>,
     external: Vec<usize>,
     inline_c: Vec<(usize, Span)>,
+    tests: Vec<(usize, String, Span)>,
     /// `{IF ..}` of CODESYS; not followed in other profiles.
     conditional: Conditional,
     profile: Profile,
@@ -380,6 +384,8 @@ impl Scan<'_, '_, '_> {
         self.logos.bump(n + close.len());
         if text.eq_ignore_ascii_case("external") {
             self.external.push(before);
+        } else if super::test_pragma::is_test(text) {
+            self.tests.push((before, text.to_owned(), Span { start: opener.start, ..self.span() }));
         } else if self.profile.is_codesys()
             && let Some(followed) = self.conditional.follow(text)
         {

@@ -10,6 +10,7 @@
 //! CONCAT takes 2 to 14 strings. The result of every other function is a scalar. Source and target should not overlap; if they do,
 //! the text may be wrong, but nothing outside of the target is written.
 
+mod asserts;
 mod bcd;
 mod conversions;
 mod dates;
@@ -24,8 +25,10 @@ mod strings;
 mod text;
 mod to_string;
 
+use crate::asserts::Asserts;
 use crate::catalog::{Function, Lowering, Pattern, functions};
 use crate::lookup::ConversionType;
+use asserts::Assertion;
 pub use conversions::{native_conversion, native_conversion_in};
 use takt_base::Profile;
 use takt_image::natives::MAX_SLOTS;
@@ -52,7 +55,14 @@ impl Types {
 /// The natives that an image has bound.
 #[derive(Default)]
 pub struct Library {
-    bound: Vec<(Run, Types)>,
+    bound: Vec<Bound>,
+    asserts: Asserts,
+}
+
+#[derive(Clone, Copy)]
+enum Bound {
+    Function(Run, Types),
+    Assertion(Assertion),
 }
 
 impl Library {
@@ -60,25 +70,37 @@ impl Library {
     pub fn new() -> Self {
         Self::default()
     }
+    /// With nothing bound; outcomes of assertions go to this log.
+    pub fn with_asserts(asserts: Asserts) -> Self {
+        Self { bound: Vec::new(), asserts }
+    }
 }
 
 impl Natives for Library {
     fn bind(&mut self, import: &NativeImport, _types: &TypeTable) -> Result<u32, BindError> {
-        let native = find(&import.name).ok_or(BindError::Unknown)?;
-        native.check(import)?;
-        self.bound.push((native.run, native.types));
+        self.bound.push(match Assertion::find(&import.name) {
+            Some(assertion) if import.kind == assertion.kind() => Bound::Assertion(assertion),
+            Some(assertion) => return Err(mismatch(import, &assertion.kind())),
+            None => {
+                let native = find(&import.name).ok_or(BindError::Unknown)?;
+                native.check(import)?;
+                Bound::Function(native.run, native.types)
+            }
+        });
         Ok(self.bound.len() as u32 - 1)
     }
 
     fn call(&mut self, native: u32, call: &mut NativeCall) -> Result<(), Trap> {
-        let &(run, types) = self.bound.get(native as usize).ok_or(Trap::NativePanic)?;
-        run(call, types)
+        match *self.bound.get(native as usize).ok_or(Trap::NativePanic)? {
+            Bound::Function(run, types) => run(call, types),
+            Bound::Assertion(assertion) => assertion.run(call, &mut self.asserts.borrow_mut()),
+        }
     }
 }
 
 /// Signature of the native of this name, in upper case; `None` if the library has none. CONCAT is given with two inputs.
 pub fn native_signature(name: &str) -> Option<NativeKind> {
-    find(name).map(|native| native.kind())
+    Assertion::find(name).map(Assertion::kind).or_else(|| find(name).map(|native| native.kind()))
 }
 
 /// A native before it is bound.
@@ -106,11 +128,12 @@ impl Native {
             }
             kind => *kind == self.kind(),
         };
-        if fits {
-            return Ok(());
-        }
-        Err(BindError::Mismatch(format!("{} is {:?}, not {:?}", import.name, self.kind(), import.kind)))
+        if fits { Ok(()) } else { Err(mismatch(import, &self.kind())) }
     }
+}
+
+fn mismatch(import: &NativeImport, kind: &NativeKind) -> BindError {
+    BindError::Mismatch(format!("{} is {kind:?}, not {:?}", import.name, import.kind))
 }
 
 /// A catalogue function, a conversion, or a helper.

@@ -54,6 +54,9 @@ impl Builder<'_> {
         if let Some(o) = self.special_call(name, args, span) {
             return o;
         }
+        if let Some(o) = self.assert_call(name, args, span) {
+            return o;
+        }
         if !self.names_function(name) {
             self.not_a_function(name);
             return self.bad_call(args, span);
@@ -111,7 +114,7 @@ impl Builder<'_> {
             (None, None) => {
                 let functions = self.hir.pous.iter().filter(|p| p.kind == PouKind::Function).map(|p| p.name.clone());
                 let standard = takt_stdlib::catalog::functions().map(|f| f.name.to_owned());
-                let known = functions.chain(standard).collect();
+                let known = functions.chain(standard).chain(super::assert::names()).collect();
                 return self.unknown(Code::UnknownName, name, known);
             }
         };

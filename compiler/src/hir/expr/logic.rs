@@ -1,6 +1,7 @@
 //! Short circuit (§5.4): AND and OR of BOOL skip the right side when it calls nobody and may trap, so that skipping can only remove
 //! faults.
 
+use crate::hir::assert::PREFIX;
 use crate::hir::builder::Builder;
 use crate::hir::constant;
 use crate::hir::convert::Operand;
@@ -58,9 +59,13 @@ fn step_indices(step: &Step) -> Vec<&Expr> {
     }
 }
 
-/// True if a user's unit is called.
+/// True if a user's unit is called, or an assertion, which counts.
 fn calls(e: &Expr) -> bool {
-    matches!(e.kind, ExprKind::Call { .. } | ExprKind::CallMethod(_) | ExprKind::Guarded(_)) || parts(e).into_iter().any(calls)
+    let here = match &e.kind {
+        ExprKind::Native { name, .. } => name.starts_with(PREFIX),
+        kind => matches!(kind, ExprKind::Call { .. } | ExprKind::CallMethod(_) | ExprKind::Guarded(_)),
+    };
+    here || parts(e).into_iter().any(calls)
 }
 
 /// True if evaluating it may stop the program.

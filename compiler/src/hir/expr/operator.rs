@@ -24,19 +24,22 @@ fn is_logic(op: BinaryOp) -> bool {
 impl Builder<'_> {
     /// `a op b` as written between its operands.
     pub(super) fn binary(&mut self, op: BinaryOp, l: &ast::Expr, r: &ast::Expr, span: Span, want: Option<TypeId>) -> Operand {
-        let hint = if is_comparison(op) { None } else { want };
-        let waits = |b: &Self, e: &ast::Expr| b.is_enumerator(e) || matches!(e.kind, ast::ExprKind::Null);
-        let (a, b) = if waits(self, l) && !waits(self, r) {
-            let b = self.operand(r, hint);
-            (self.operand(l, Some(b.expr.ty)), b)
-        } else {
-            let a = self.operand(l, hint);
-            let beside = if a.flex == Flex::Fixed { Some(a.expr.ty) } else { hint };
-            let b = self.operand(r, beside);
-            (a, b)
-        };
+        let (a, b) = self.beside(l, r, if is_comparison(op) { None } else { want });
         let o = self.combine(op, a, b, span, want);
         self.short_circuit(o)
+    }
+
+    /// Two operands, each of which may say what the other means.
+    pub fn beside(&mut self, l: &ast::Expr, r: &ast::Expr, hint: Option<TypeId>) -> (Operand, Operand) {
+        let waits = |b: &Self, e: &ast::Expr| b.is_enumerator(e) || matches!(e.kind, ast::ExprKind::Null);
+        if waits(self, l) && !waits(self, r) {
+            let b = self.operand(r, hint);
+            return (self.operand(l, Some(b.expr.ty)), b);
+        }
+        let a = self.operand(l, hint);
+        let beside = if a.flex == Flex::Fixed { Some(a.expr.ty) } else { hint };
+        let b = self.operand(r, beside);
+        (a, b)
     }
 
     /// `a op b` of two typed operands.

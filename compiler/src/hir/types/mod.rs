@@ -91,7 +91,8 @@ impl Builder<'_> {
         if pou.kind == PouKind::Interface {
             return self.interface_type(id, at);
         }
-        if !matches!(pou.kind, PouKind::FunctionBlock | PouKind::Class) {
+        let tested = pou.kind == PouKind::Program && self.in_test();
+        if !tested && !matches!(pou.kind, PouKind::FunctionBlock | PouKind::Class) {
             let what = if pou.kind == PouKind::Program { "a PROGRAM" } else { "a FUNCTION" };
             let help = "only function blocks have instances; programs are listed in the CONFIGURATION";
             self.report(Diag::new(Code::UnknownType, at, what).message("this is not a type").help(help));

@@ -19,6 +19,7 @@ impl Parser<'_> {
                 self.bump();
             }
         }
+        self.misplaced_tests();
         File { items }
     }
 
@@ -66,6 +67,7 @@ impl Parser<'_> {
     fn pou(&mut self, kind: PouKind, end: Kw) -> Pou {
         let first = self.pos;
         let external = self.tokens.external.binary_search(&self.pos).is_ok();
+        let test = self.test_pragma(kind);
         let opener = self.here();
         let opener_name = self.bump().kw.text();
         let mut objects = Objects { modifiers: self.modifiers(), ..Objects::default() };
@@ -80,7 +82,7 @@ impl Parser<'_> {
         let inside = |at: &&(usize, Span)| (first..=self.pos).contains(&at.0);
         let inline_c = self.tokens.inline_c.iter().find(inside).map(|c| c.1);
         let result = result.filter(|_| kind == PouKind::Function);
-        Pou { kind, name, result, sections, body, objects, external, inline_c, span: self.since(opener) }
+        Pou { kind, name, result, sections, body, objects, external, inline_c, test, span: self.since(opener) }
     }
 
     fn pou_head(&mut self, objects: &mut Objects) -> Option<Name> {

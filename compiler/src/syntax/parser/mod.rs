@@ -15,6 +15,7 @@ mod loops;
 mod object;
 mod recover;
 mod stmt;
+mod test;
 mod types;
 mod unsupported;
 mod var;

@@ -134,6 +134,7 @@ impl Parser<'_> {
             objects,
             external: false,
             inline_c: None,
+            test: None,
             span: self.since(opener),
         }
     }
@@ -226,7 +227,7 @@ impl Parser<'_> {
         }
         let objects = Objects { modifiers, accessor: Some(accessor), ..Objects::default() };
         let (kind, name) = (PouKind::Method, head.name.clone());
-        Pou { kind, name, result, sections, body, objects, external: false, inline_c: None, span: self.since(opener) }
+        Pou { kind, name, result, sections, body, objects, external: false, inline_c: None, test: None, span: self.since(opener) }
     }
 }
 
