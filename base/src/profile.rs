@@ -55,12 +55,12 @@ impl Profile {
 
     /// A unit may write its own VAR_INPUT; with a warning.
     pub const fn writes_inputs(self) -> bool {
-        self.is_codesys()
+        self.is_vendor()
     }
 
-    /// Comments nest; CODESYS 2 files say so themselves (`@NESTEDCOMMENTS`).
+    /// Comments nest. MATIEC closes them at the first `*)`; CODESYS 2 files say it themselves (`@NESTEDCOMMENTS`).
     pub const fn nests_comments(self) -> bool {
-        !matches!(self, Profile::Codesys2)
+        matches!(self, Profile::Std | Profile::Codesys)
     }
 
     /// The words that edition 3 brought (CLASS, METHOD, LDT, ...) and those of SFC are reserved (§1.3).

@@ -139,6 +139,11 @@ impl Source {
         LineCol { line: line as u32, column: self.text[start..cut].chars().count() as u32 + 1 }
     }
 
+    /// Byte offset at which a line (from 1) begins; the end of the text if there is no such line.
+    pub fn line_start(&self, line: u32) -> usize {
+        self.line_starts.get((line as usize).wrapping_sub(1)).map_or(self.text.len(), |&s| s as usize)
+    }
+
     /// Text of a line (from 1) without its line end; empty if there is no such line.
     pub fn line(&self, line: u32) -> &str {
         let Some(&start) = self.line_starts.get((line as usize).wrapping_sub(1)) else { return "" };
@@ -179,6 +184,7 @@ mod tests {
         };
         assert_eq!([at(0), at(1), at(4), at(6), at(9), at(11)], [(1, 1), (1, 2), (2, 1), (2, 2), (2, 3), (3, 1)]);
         assert_eq!([s.get(id).line(1), s.get(id).line(2), s.get(id).line(3)], ["ab", "ä€x", "z"]);
+        assert_eq!([0, 1, 2, 3, 4, 9].map(|l| s.get(id).line_start(l)), [13, 0, 4, 11, 13, 13]);
     }
 
     #[test]

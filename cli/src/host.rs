@@ -7,6 +7,7 @@ use takt_base::Nanos;
 use takt_image::{BindError, Cyclic, NativeCall, NativeImport, Natives, Trap, TypeTable};
 use takt_motion::machine::Machine;
 use takt_stdlib::Library;
+use takt_stdlib::asserts::Asserts;
 
 /// Where a bound import lives.
 #[derive(Clone, Copy)]
@@ -23,9 +24,9 @@ pub struct PlcHost {
 }
 
 impl PlcHost {
-    /// Around a machine, which the caller may look at between two steps.
-    pub fn new(machine: Rc<RefCell<Machine>>) -> Self {
-        Self { library: Library::default(), machine, bound: Vec::new() }
+    /// Around a machine and a log of assertions, which the caller may look at between two steps.
+    pub fn new(machine: Rc<RefCell<Machine>>, asserts: Asserts) -> Self {
+        Self { library: Library::with_asserts(asserts), machine, bound: Vec::new() }
     }
 }
 

@@ -8,6 +8,7 @@ macro_rules! say {
     }};
 }
 
+mod asserts;
 mod commands;
 mod diagnostics;
 mod duration;
@@ -16,7 +17,9 @@ mod json;
 mod progress;
 mod project;
 mod report;
+mod retain;
 mod session;
+mod test_report;
 mod watch;
 
 use clap::{Parser, Subcommand};
@@ -40,6 +43,7 @@ enum Command {
     Build(commands::build::Args),
     Run(commands::run::Args),
     Sim(commands::sim::Args),
+    Test(commands::test::Args),
     Bench(commands::bench::Args),
     Explain(commands::explain::Args),
     Gcode(commands::gcode::Args),
@@ -65,6 +69,7 @@ fn main() -> std::process::ExitCode {
         Command::Build(a) => commands::build::run(a),
         Command::Run(a) => commands::run::run(a),
         Command::Sim(a) => commands::sim::run(a),
+        Command::Test(a) => commands::test::run(a),
         Command::Bench(a) => commands::bench::run(a),
         Command::Explain(a) => commands::explain::run(a),
         Command::Gcode(a) => commands::gcode::run(a),

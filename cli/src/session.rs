@@ -9,8 +9,10 @@ use std::rc::Rc;
 use std::sync::Arc;
 use takt_base::{Code, Nanos, Profile};
 use takt_compiler::driver::{self, Compilation, File};
+use takt_compiler::hir::Test;
 use takt_compiler::mir::{Interpreter, model::Module};
-use takt_image::{Engine, Image, encode};
+use takt_image::value::VarType;
+use takt_image::{Elementary, Engine, Image, encode};
 use takt_motion::machine::{Background, Machine, MachineConfig};
 use takt_runtime::{LoadError, NativeEngine, OnFault, Options, Resource, SimDriver, Stimulus};
 
@@ -41,19 +43,34 @@ pub enum EngineKind {
 
 /// Parses, checks and compiles; messages stay in the answer.
 pub fn compile(project: &Project) -> Result<Compilation, Problem> {
+    Ok(driver::compile(to_compile(project)?))
+}
+
+/// What the compiler is given.
+fn to_compile(project: &Project) -> Result<driver::Project, Problem> {
     let machine = project::machine(&project.keys)?;
     let interval = project.keys.task.interval.as_deref();
     let text = Machine::declarations(&machine).into_bytes();
     let declarations = File { name: "machine.st".into(), bytes: text, library: true, profile: Profile::Std };
     let sources =
         project.sources.iter().map(|s| File { name: s.name.clone(), bytes: s.bytes.clone(), library: false, profile: s.profile });
-    Ok(driver::compile(driver::Project {
+    Ok(driver::Project {
         name: project.name.clone(),
         files: std::iter::once(declarations).chain(sources).collect(),
         attachments: attachments(project),
-        interval: interval.map(|t| project::time("task.interval", Some(t), Nanos::ZERO)).transpose()?,
+        interval: interval.map(task_interval).transpose()?,
         native: true,
-    }))
+    })
+}
+
+/// `task.interval`, which can't be zero.
+fn task_interval(text: &str) -> Result<Nanos, Problem> {
+    let interval = project::time("task.interval", Some(text), Nanos::ZERO)?;
+    if interval > Nanos::ZERO {
+        return Ok(interval);
+    }
+    let text = format!("takt.toml: task.interval = \"{text}\" is no period; write for example \"10ms\"");
+    Err(Problem::File(Code::BadProjectFile, text))
 }
 
 impl Session {
@@ -75,6 +92,18 @@ impl Session {
         }
         let module = compilation.module.map(Arc::new);
         Ok(Some(Self { name: project.name, image, module, keys: project.keys, machine, root: project.root }))
+    }
+
+    /// Compiles the unit tests of a project. Messages go to stderr; `None` if there are errors.
+    pub fn open_tests(paths: &[PathBuf], profile: Option<Profile>) -> Result<Option<(Self, Vec<Test>)>, Problem> {
+        let project = project::load(paths, profile)?;
+        let machine = project::machine(&project.keys)?;
+        let (compilation, tests) = driver::compile_tests(to_compile(&project)?);
+        diagnostics::print(&compilation.diags, &compilation.sources);
+        let Some(image) = compilation.image else { return Ok(None) };
+        let module = compilation.module.map(Arc::new);
+        let session = Self { name: project.name, image, module, keys: project.keys, machine, root: project.root };
+        Ok(Some((session, tests)))
     }
 
     fn from_image(file: &Path) -> Result<Self, Problem> {
@@ -105,20 +134,34 @@ impl Session {
         Rc::new(RefCell::new(Machine::new(&self.machine, Box::new(files), background)))
     }
 
-    /// A resource on this machine. Call it on the thread that will run it.
-    pub fn resource(&self, machine: Rc<RefCell<Machine>>, engine: EngineKind, options: Options) -> Result<Resource, Problem> {
-        let mut host = PlcHost::new(machine);
+    /// A resource on this host. Call it on the thread that will run it.
+    pub fn resource(&self, host: PlcHost, engine: EngineKind, options: Options) -> Result<Resource, Problem> {
+        self.resource_of(self.image.clone(), host, engine, options)
+    }
+
+    /// The same with the tasks of another image.
+    pub fn resource_of(
+        &self,
+        image: Image,
+        mut host: PlcHost,
+        engine: EngineKind,
+        options: Options,
+    ) -> Result<Resource, Problem> {
         let engine: Box<dyn Engine> = match (engine, &self.module) {
-            (EngineKind::Native, _) => Box::new(NativeEngine::new(&self.image, &mut host).map_err(refused)?),
+            (EngineKind::Native, _) => Box::new(NativeEngine::new(&image, &mut host).map_err(refused)?),
             (EngineKind::Interpreter, Some(module)) => {
-                let bound =
-                    Interpreter::bind(module, &mut host, &self.image.types).map_err(|e| refused_text(format!("{e:?}")))?;
-                let engine = Interpreter::new(Arc::clone(module), bound, self.image.memory.frames);
+                let bound = Interpreter::bind(module, &mut host, &image.types).map_err(|e| refused_text(format!("{e:?}")))?;
+                let engine = Interpreter::new(Arc::clone(module), bound, image.memory.frames);
                 Box::new(engine.map_err(|e| refused_text(format!("{e:?}")))?)
             }
             (EngineKind::Interpreter, None) => return Err(refused_text("an image file holds native code alone".into())),
         };
-        Resource::new(self.image.clone(), engine, Box::new(host), options).map_err(refused)
+        Resource::new(image, engine, Box::new(host), options).map_err(refused)
+    }
+
+    /// Where `takt run` keeps retained values.
+    pub fn retain_file(&self) -> PathBuf {
+        self.root.join(self.keys.run.retain.as_deref().unwrap_or(".takt/retain"))
     }
 
     /// Run options of the project file.
@@ -160,7 +203,22 @@ impl Session {
     /// The BOOL variable of `run.stop_when`.
     pub fn stop_when(&self) -> Result<Option<takt_image::path::Variable>, Problem> {
         let path = self.keys.run.stop_when.as_deref();
-        path.map(|p| takt_image::path::resolve(&self.image, p).map_err(|e| Problem::access(&e))).transpose()
+        path.map(|p| {
+            let variable = takt_image::path::resolve(&self.image, p).map_err(|e| Problem::access(&e))?;
+            if self.is_bool(&variable) {
+                return Ok(variable);
+            }
+            let text = format!("takt.toml: stop_when = \"{p}\" is not a BOOL; name a variable that becomes TRUE");
+            Err(Problem::File(Code::BadProjectFile, text))
+        })
+        .transpose()
+    }
+
+    fn is_bool(&self, v: &takt_image::path::Variable) -> bool {
+        match v.ty {
+            VarType::Declared(ty) => self.image.types.storage(ty) == Some(Elementary::Bool),
+            VarType::Direct(e) => e == Elementary::Bool,
+        }
     }
 }
 

@@ -53,7 +53,7 @@ fn a_damaged_image_is_refused_with_a_reason() {
 #[test]
 fn project_files_with_mistakes() {
     let dir = folder("bad-project");
-    fs::write(dir.join("main.st"), "PROGRAM main END_PROGRAM").unwrap();
+    fs::write(dir.join("main.st"), "PROGRAM main VAR n : INT; END_VAR END_PROGRAM").unwrap();
     for (toml, code, words) in [
         ("[run]\nduratoin = \"1s\"", "C0002", "duration"),
         ("[run]\nduration = 5", "C0001", "takt.toml:2:12"),
@@ -61,6 +61,8 @@ fn project_files_with_mistakes() {
         ("[run", "C0001", "takt.toml"),
         ("[run]\nduration = \"soon\"", "C0001", "not a duration"),
         ("[run]\nstop_when = \"main.x\"", "C0007", "main"),
+        ("[run]\nstop_when = \"main.n\"", "C0001", "not a BOOL"),
+        ("[task]\ninterval = \"0s\"", "C0001", "no period"),
         ("[run]\nstimulus = \"no.csv\"", "C0005", "no.csv"),
         ("[[motion.axis]]\nname = \"A1\"\nv_max_mm_s = -5.0", "C0001", "A1"),
         ("[[motion.channel]]\nname = \"C\"\naxes = [\"Nobody\"]", "C0001", "Nobody"),
@@ -72,4 +74,34 @@ fn project_files_with_mistakes() {
         assert_eq!(ran.status, 1, "{toml}\n{}", ran.stderr);
         assert!(ran.stderr.contains(code) && ran.stderr.contains(words), "{toml}\n{}", ran.stderr);
     }
+}
+
+#[test]
+fn an_interval_of_zero_is_a_usage_error() {
+    let path = file("zero-interval", "main.st", "PROGRAM main END_PROGRAM");
+    let ran = takt(&["sim", &path, "--interval", "0s"]);
+    assert!(ran.status == 2 && ran.stderr.contains("--interval"), "{ran:?}");
+}
+
+#[test]
+fn a_bare_project_file_name_packs_the_files_of_the_folder() {
+    let dir = folder("bare-toml");
+    fs::write(dir.join("main.st"), "PROGRAM main END_PROGRAM").unwrap();
+    fs::write(dir.join("takt.toml"), "[project]\nname = \"bare\"").unwrap();
+    fs::write(dir.join("part.ngc"), "(a part program)").unwrap();
+    let ran = takt_in(&dir, &["build", "takt.toml", "-o", "x.takt"]);
+    assert_eq!(ran.status, 0, "{ran:?}");
+    let image = fs::read(dir.join("x.takt")).unwrap();
+    assert!(image.windows(16).any(|w| w == b"(a part program)"));
+}
+
+#[test]
+fn a_run_that_can_not_start_says_so_at_once() {
+    let dir = folder("no-start");
+    fs::write(dir.join("main.st"), "PROGRAM main END_PROGRAM").unwrap();
+    fs::write(dir.join("takt.toml"), "[run]\nstimulus = \"no.csv\"").unwrap();
+    let start = std::time::Instant::now();
+    let ran = takt_in(&dir, &["run", "."]);
+    assert!(ran.status == 1 && ran.stderr.contains("C0005"), "{ran:?}");
+    assert!(start.elapsed().as_secs() < 8, "it waited for counters that never come");
 }

@@ -51,11 +51,26 @@ pub struct Compilation {
 
 /// Compiles a project.
 pub fn compile(project: Project) -> Compilation {
-    let sources = sources(&project.files);
-    let mut sink = Sink::new();
-    let files: Vec<_> = sources.iter().map(|(id, _)| (id, syntax::parse(&sources, id, &mut sink))).collect();
+    let (sources, mut sink) = (sources(&project.files), Sink::new());
+    let files = parse(&sources, &mut sink);
     let mut hir = hir::build(&files, &sources, &mut sink);
     set_interval(&mut hir, &files, project.interval);
+    compilation(hir, sources, project, sink)
+}
+
+/// Compiles the unit tests of a project: the image has a task for each, in the same order, and no others.
+pub fn compile_tests(project: Project) -> (Compilation, Vec<hir::Test>) {
+    let (sources, mut sink) = (sources(&project.files), Sink::new());
+    let files = parse(&sources, &mut sink);
+    let (hir, tests) = hir::build_tests(&files, &sources, &mut sink);
+    (compilation(hir, sources, project, sink), tests)
+}
+
+fn parse(sources: &Sources, sink: &mut Sink) -> Vec<(SourceId, ast::File)> {
+    sources.iter().map(|(id, _)| (id, syntax::parse(sources, id, sink))).collect()
+}
+
+fn compilation(hir: Hir, sources: Sources, project: Project, mut sink: Sink) -> Compilation {
     let built = if sink.has_errors() { None } else { finish(hir, &sources, project, &mut sink) };
     let (image, module) = built.unzip();
     Compilation { diags: sink.into_sorted(), sources, image, module }
@@ -68,7 +83,7 @@ fn finish(hir: Hir, sources: &Sources, project: Project, sink: &mut Sink) -> Opt
     assert!(problems.is_empty(), "the lowering broke a rule: {}", problems[0]);
     let code = if project.native { codegen::emit(&lowered.module) } else { Ok(Code::default()) };
     let code = code.map_err(|why| sink.push(too_large_for_code(sources, &why))).ok()?;
-    let Lowered { module, memory, init, symbols, tasks } = lowered;
+    let Lowered { module, memory, init, symbols, retained, tasks } = lowered;
     let image = Image {
         name: project.name,
         target: if project.native { Target::X86_64V2 } else { Target::None },
@@ -83,6 +98,7 @@ fn finish(hir: Hir, sources: &Sources, project: Project, sink: &mut Sink) -> Opt
         lines: code.lines,
         files: module.files.clone(),
         tasks,
+        retained,
         attachments: project.attachments,
     };
     Some((image, module))
@@ -92,6 +108,12 @@ fn sources(files: &[File]) -> Sources {
     let mut sources = Sources::new();
     for (name, text) in takt_stdlib::SOURCES {
         sources.add_library(*name, *text);
+    }
+    for (name, text, profile) in takt_stdlib::vendor::VENDOR_SOURCES {
+        if files.iter().any(|f| takt_stdlib::vendor::has_source(f.profile, *profile)) {
+            let id = sources.add_library(*name, *text);
+            sources.set_profile(id, *profile);
+        }
     }
     let (name, text, profile) = takt_stdlib::PRELUDE;
     if files.iter().any(|f| f.profile == profile) {

@@ -3,7 +3,7 @@
 
 use crate::elementary::Elementary;
 use crate::encode::{ENVELOPE, ImageError, MAGIC, NO_RESULT, SCALARS, SECTIONS, TARGETS, VERSION};
-use crate::image::{Chunk, Function, Image, LineSite, Place, Program, Symbol, Task, TrapSite};
+use crate::image::{Chunk, Function, Image, LineSite, Place, Program, Retained, Symbol, Task, TrapSite};
 use crate::memory::MemoryMap;
 use crate::natives::{NativeImport, NativeKind, Scalar};
 use crate::types::{Dim, Field, PointerKind, Record, Type, TypeId, TypeTable};
@@ -100,6 +100,7 @@ impl<'a> Reader<'a> {
         let lines = self.list(12, |r| Ok(LineSite { offset: r.u32()?, file: r.u32()?, line: r.u32()? }))?;
         let files = self.list(4, Self::text)?;
         let tasks = self.list(13, Self::task)?;
+        let retained = self.list(10, Self::retained)?;
         let attachments = self.list(8, |r| Ok((r.text()?, r.bytes()?)))?;
         Ok(Image {
             name,
@@ -115,8 +116,14 @@ impl<'a> Reader<'a> {
             lines,
             files,
             tasks,
+            retained,
             attachments,
         })
+    }
+
+    fn retained(&mut self) -> Read<Retained> {
+        let (path, ty, place) = (self.text()?, TypeId(self.u32()?), self.place()?);
+        Ok(Retained { path, ty, place, persistent: self.u8()? != 0 })
     }
 
     fn memory(&mut self) -> Read<MemoryMap> {
@@ -145,6 +152,7 @@ impl<'a> Reader<'a> {
             6 => Type::Struct(self.record(value)?),
             7 => Type::Instance(self.record(value)?),
             8 => Type::Reference { target: TypeId(value) },
+            10 => Type::Open { element: TypeId(value), dims: self.u32()? },
             9 => {
                 let number = self.u32()? as usize;
                 Type::Pointer { target: TypeId(value), kind: self.choice(number, PointerKind::ALL, "kind of pointer")? }

@@ -13,7 +13,7 @@ pub use crate::decode::decode;
 /// First bytes of an image file.
 pub const MAGIC: [u8; 8] = *b"TAKTIMG\n";
 /// Version of the format. A reader takes its own version alone.
-pub const VERSION: u32 = 1;
+pub const VERSION: u32 = 2;
 /// Bytes before the payload: magic, version, payload length, CRC-32C of the payload.
 pub(crate) const ENVELOPE: usize = 8 + 4 + 4 + 4;
 
@@ -113,6 +113,12 @@ impl Writer {
         });
         self.code(image);
         self.list(&image.tasks, Self::task);
+        self.list(&image.retained, |w, r| {
+            w.text(&r.path);
+            w.u32(r.ty.0);
+            w.place(r.place);
+            w.u8(u8::from(r.persistent));
+        });
         self.list(&image.attachments, |w, (name, contents)| {
             w.text(name);
             w.bytes(contents);
@@ -163,6 +169,10 @@ impl Writer {
             Type::Struct(r) => self.record(6, r),
             Type::Instance(r) => self.record(7, r),
             Type::Reference { target } => self.tagged(8, target.0),
+            Type::Open { element, dims } => {
+                self.tagged(10, element.0);
+                self.u32(*dims);
+            }
             Type::Pointer { target, kind } => {
                 self.tagged(9, target.0);
                 self.u32(*kind as u32);

@@ -50,6 +50,10 @@ pub(crate) fn sample() -> Image {
         traps: vec![TrapSite { offset: 2, trap: 1 }],
         lines: vec![LineSite { offset: 0, file: 0, line: 1 }, LineSite { offset: 4, file: 0, line: 9 }],
         files: vec!["pump.st".into()],
+        retained: vec![
+            Retained { path: "main.n".into(), ty: bool_, place: Place::Byte(memory.data.start), persistent: true },
+            Retained { path: "lamp".into(), ty: bool_, place: Place::Bit(memory.outputs.start, 3), persistent: false },
+        ],
         tasks: vec![
             Task {
                 name: "fast".into(),
@@ -111,7 +115,7 @@ fn damage_is_named() {
     *bytes.last_mut().unwrap() ^= 1;
     assert_eq!(reason(&bytes), "the checksum does not fit the contents: the file is damaged");
     bytes[8] = 9;
-    assert_eq!(reason(&bytes), "the image has format version 9, this program reads version 1");
+    assert_eq!(reason(&bytes), "the image has format version 9, this program reads version 2");
     let mut longer = encode(&sample())[ENVELOPE..].to_vec();
     longer.push(0);
     assert_eq!(reason(&seal(&longer)), "1 bytes too many at the end");

@@ -34,6 +34,8 @@ pub struct Image {
     pub files: Vec<String>,
     /// Tasks, in declaration order.
     pub tasks: Vec<Task>,
+    /// Variables that keep their values over a restart.
+    pub retained: Vec<Retained>,
     /// Files that the program needs: project file, part programs. Name and contents.
     pub attachments: Vec<(String, Vec<u8>)>,
 }
@@ -70,6 +72,19 @@ pub struct Symbol {
     pub constant: bool,
     /// Declared RETAIN.
     pub retain: bool,
+}
+
+/// A variable, or a part of one, that keeps its value over a restart.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Retained {
+    /// Instance path.
+    pub path: String,
+    /// Type: scalars, strings, and arrays and records of those.
+    pub ty: TypeId,
+    /// Where.
+    pub place: Place,
+    /// Over a cold start too (PERSISTENT).
+    pub persistent: bool,
 }
 
 /// Where a symbol lies.

@@ -18,6 +18,8 @@ pub mod header {
     pub const HOST: u32 = 24;
     /// u32: end of the frame area; a call whose frame would pass it traps with `StackOverflow`.
     pub const FRAME_LIMIT: u32 = 32;
+    /// u8: cleared by a native that met an error; a call with ENO sets it before and reads it after.
+    pub const ENO: u32 = 36;
     /// Bytes of the header.
     pub const SIZE: u32 = 64;
 }

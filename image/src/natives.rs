@@ -96,6 +96,12 @@ impl NativeCall<'_> {
     pub fn f32(&self, i: usize) -> f32 {
         f32::from_bits(self.u32(i))
     }
+    /// Notes an error of a library function: ENO of the call becomes FALSE.
+    pub fn fail(&mut self) {
+        if let Some(eno) = self.memory.get_mut(crate::memory::header::ENO as usize) {
+            *eno = 0;
+        }
+    }
     /// `size` bytes of memory at `offset`.
     pub fn bytes(&self, offset: u32, size: u32) -> Result<&[u8], Trap> {
         self.memory.get(offset as usize..offset as usize + size as usize).ok_or(Trap::Memory)

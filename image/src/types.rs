@@ -10,6 +10,9 @@ takt_base::index_type! {
     TypeId
 }
 
+/// Name of the hidden first field of instances that hold the number of their class. No user's name: it is a keyword.
+pub const CLASS_FIELD: &str = "class";
+
 /// A type.
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
 pub enum Type {
@@ -56,10 +59,17 @@ pub enum Type {
     Struct(Record),
     /// FUNCTION_BLOCK or PROGRAM instance: inputs, outputs, in-out references, variables, in declaration order of the sections.
     Instance(Record),
-    /// The place of a VAR_IN_OUT: a 32-bit offset into the resource memory.
+    /// The place of a VAR_IN_OUT, or the value of a variable of an interface type: a 32-bit offset into the resource memory.
     Reference {
         /// What it refers to.
         target: TypeId,
+    },
+    /// A parameter `ARRAY [*]`: the place of the first element, then lower and upper bound of each dimension, 32 bits each.
+    Open {
+        /// Type of an element.
+        element: TypeId,
+        /// Number of dimensions.
+        dims: u32,
     },
     /// A variable that holds the place of another: a 32-bit offset into the resource memory, 0 for NULL. Code checks it at every use.
     Pointer {
@@ -236,6 +246,7 @@ impl TypeTable {
             }
             Type::Struct(r) | Type::Instance(r) => Layout::of(r.size, r.align),
             Type::Reference { .. } | Type::Pointer { .. } => Layout::of(4, 4),
+            Type::Open { dims, .. } => Layout::of(dims.saturating_mul(8).saturating_add(4), 4),
         }
     }
 
@@ -264,6 +275,16 @@ impl TypeTable {
         record
     }
 
+    /// True for a structure whose members share bytes (OVERLAP, UNION).
+    pub fn overlaps(&self, id: TypeId) -> bool {
+        let Type::Struct(r) = self.get(id) else { return false };
+        let mut ranges: Vec<_> =
+            r.fields.iter().map(|f| (f.offset, f.offset.saturating_add(self.layout(f.ty).size), f.ty)).collect();
+        ranges.sort();
+        let is_bits = |ty: TypeId| self.storage(ty) == Some(Elementary::Byte);
+        ranges.windows(2).any(|w| w[1].0 < w[0].1 && !(is_bits(w[0].2) && is_bits(w[1].2) && w[0].0 == w[1].0))
+    }
+
     /// How the user would write the type.
     pub fn display(&self, id: TypeId) -> String {
         match self.get(id) {
@@ -276,6 +297,10 @@ impl TypeTable {
                 format!("ARRAY[{}] OF {}", dims.join(", "), self.display(*element))
             }
             Type::Struct(r) | Type::Instance(r) => r.name.clone(),
+            Type::Open { element, dims } => {
+                let stars = vec!["*"; *dims as usize];
+                format!("ARRAY[{}] OF {}", stars.join(", "), self.display(*element))
+            }
             Type::Reference { target } => self.display(*target),
             Type::Pointer { target, kind } => format!("{} {}", kind.text(), self.display(*target)),
         }
@@ -285,7 +310,7 @@ impl TypeTable {
     pub fn storage(&self, id: TypeId) -> Option<Elementary> {
         match self.get(id) {
             Type::Elementary(e) | Type::Subrange { base: e, .. } | Type::Enum { base: e, .. } => Some(*e),
-            Type::Pointer { .. } => Some(Elementary::Udint),
+            Type::Reference { .. } | Type::Pointer { .. } => Some(Elementary::Udint),
             _ => None,
         }
     }

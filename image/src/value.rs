@@ -87,7 +87,7 @@ fn declared(types: &TypeTable, memory: &[u8], offset: u32, id: TypeId) -> Option
                 |f: &crate::types::Field| Some((f.name.clone(), declared(types, memory, offset.checked_add(f.offset)?, f.ty)?));
             shown.map(member).collect::<Option<_>>().map(Value::Struct)
         }
-        Type::Reference { .. } | Type::Pointer { .. } => {
+        Type::Reference { .. } | Type::Pointer { .. } | Type::Open { .. } => {
             Some(Value::Reference(u32::from_le_bytes(bytes(memory, offset, 4)?.try_into().ok()?)))
         }
     }

@@ -132,6 +132,8 @@ pub struct Resource {
     pub(crate) faults: Vec<FaultRecord>,
     pub(crate) counts: Snapshot,
     progress: Arc<Progress>,
+    /// What programs see as the time of the start: timers that were restored go on from there.
+    pub(crate) epoch: Nanos,
     shut: bool,
 }
 
@@ -156,6 +158,7 @@ impl Resource {
             faults: Vec::with_capacity(MAX_RECORDS),
             counts: Snapshot::default(),
             progress: Arc::default(),
+            epoch: Nanos::ZERO,
             shut: false,
             image,
             memory,
@@ -170,6 +173,17 @@ impl Resource {
     pub fn with_driver(mut self, driver: Box<dyn Driver>) -> Self {
         self.driver = driver;
         self
+    }
+
+    /// Changes the memory before the first scan, for retained values; `restore` gives the time at which programs go on.
+    pub fn restored(mut self, restore: impl FnOnce(&mut [u8]) -> Nanos) -> Self {
+        self.epoch = restore(&mut self.memory);
+        self
+    }
+
+    /// The time that programs see now: that of the last scan, behind the time restored.
+    pub fn program_time(&self) -> Nanos {
+        self.epoch + self.counts.now
     }
 
     /// The image.

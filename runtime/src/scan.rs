@@ -38,6 +38,7 @@ impl Resource {
     /// The programs in declaration order, to the end or to the first fault.
     fn run_programs(&mut self, task: usize, now: Nanos) -> Result<(), (usize, Fault)> {
         let budget = self.tasks[task].watchdog;
+        let now = self.epoch + now;
         for (i, p) in self.image.tasks[task].programs.iter().enumerate() {
             self.engine.run(p.function, p.instance, now, budget, &mut self.memory, &mut *self.host).map_err(|f| (i, f))?;
         }

@@ -1,9 +1,11 @@
 //! The IEC 61131-3 standard library: a catalogue of functions, function blocks in ST, and natives where ST can't say it.
 
+pub mod asserts;
 pub mod calendar;
 pub mod catalog;
 pub mod lookup;
 pub mod natives;
+pub mod vendor;
 
 pub use lookup::{ConversionType, Found, lookup};
 pub use natives::{Library, native_conversion, native_signature};

@@ -48,6 +48,9 @@ fn no_native_panics() {
             let slots = vec![slot; params.len()];
             // A trap is an answer too.
             let _ = common::run(&name, params.clone(), result, &slots, &mut memory);
+            // ENO is the one byte there that a native may clear.
+            let eno = std::mem::replace(&mut memory[header::ENO as usize], 0x55);
+            assert!(matches!(eno, 0 | 0x55), "{name}");
             assert!(memory[..header::SIZE as usize].iter().all(|&b| b == 0x55), "{name} wrote into the header");
         }
     }

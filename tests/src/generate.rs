@@ -161,6 +161,9 @@ impl Generator {
         );
         self.line("    d : ARRAY[0..1, -1..1] OF LREAL; END_STRUCT;");
         self.line("END_TYPE");
+        self.line("FUNCTION OpenSum : DINT VAR_INPUT a : ARRAY [*] OF INT; END_VAR VAR i : DINT; END_VAR");
+        self.line("  FOR i := LOWER_BOUND(a, 1) TO UPPER_BOUND(a, 1) DO OpenSum := OpenSum * DINT#3 + a[i]; END_FOR;");
+        self.line("END_FUNCTION");
     }
 
     fn globals(&mut self) {

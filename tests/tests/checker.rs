@@ -169,7 +169,7 @@ fn section_3_variables_and_constants() {
         ("", "a AT %IX0.0 : BOOL;", "a := TRUE;", "P3013"),
         ("", "n : INT;", "%IW1 := 1;", "P3013"),
         ("", "a AT %QX0.9 : BOOL;", "", "P0008"),
-        ("", "a AT %I* : BOOL;", "", "P0012"),
+        ("", "a AT %I* : BOOL;", "", "P3080"),
         (
             "FUNCTION_BLOCK F VAR_INPUT i : INT; END_VAR VAR_OUTPUT o : INT; END_VAR VAR v : INT; END_VAR o := i + v; END_FUNCTION_BLOCK",
             "f : F; n : INT;",
@@ -215,7 +215,7 @@ FUNCTION_BLOCK B VAR_INPUT a : INT; c : BOOL; END_VAR VAR_OUTPUT o : INT; END_VA
         (units, "n : INT;", "B(a := 1);", "P2012"),
         (units, "n : INT; b : ARRAY[0..1] OF B;", "b[n](a := 1);", ""),
         (units, "n : INT; b : B;", "b(a := TRUE);", "P2001"),
-        (units, "n : INT; b : B; x : BOOL;", "b(EN := x, a := 1);", "P0012"),
+        (units, "n : INT; b : B; x : BOOL;", "b(EN := x, a := 1);", ""),
         ("", "n : INT;", "n := unknown(1);", "P1003"),
         ("FUNCTION g : INT g := g(); END_FUNCTION", "n : INT;", "n := g();", "P3009"),
         ("FUNCTION g : INT END_FUNCTION", "n : INT;", "n := g();", "P3012"),

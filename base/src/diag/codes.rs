@@ -1,8 +1,8 @@
 //! Every diagnostic and fault code, once. A code is for ever: never reused, never renumbered.
 //!
 //! P0 text, P1 names, P2 types, P3 program rules, P4 tasks and configuration, P5 Instruction List; N g-code; C project and image files;
-//! F runtime faults, whose number is the ErrorID word of a function block in hexadecimal. Each has a page in `docs/codes/`, which
-//! `takt explain` prints.
+//! T tests; F runtime faults, whose number is the ErrorID word of a function block in hexadecimal. Each has a page in `docs/codes/`,
+//! which `takt explain` prints.
 
 use super::Severity;
 
@@ -66,6 +66,12 @@ codes! {
     P1007 AmbiguousEnumerator "several enumerations have a value of this name";
     P1008 GlobalWithoutExternal "a global is used without a VAR_EXTERNAL declaration" Warning;
     P1009 ExternalMismatch "VAR_EXTERNAL does not match a global variable";
+    P1020 AccessDenied "this member can't be used from here";
+    P1021 MemberClash "a method and a variable have the same name";
+    P1022 HidesInherited "this variable has the name of an inherited one";
+    P1023 UnknownMethod "this type has no such method";
+    P1024 NoThis "THIS and SUPER need a type around them";
+    P1025 NoBase "SUPER needs a base type";
 
     // --- P2 types ---
     P2001 TypeMismatch "the types do not fit";
@@ -85,7 +91,13 @@ codes! {
     P2015 RecursiveType "a type can't contain itself";
     P2016 TypeTooLarge "this type or program needs more memory than there is";
     P2017 NotReferable "this has no place that a reference may keep";
+    P2020 BadLayout "a member has no place in this structure";
+    P2019 MisplacedOpenArray "an array of variable length is a parameter, used by its elements";
     P2018 NotAReference "only a reference can be dereferenced";
+    P2030 NotABase "this can't be extended or implemented here";
+    P2031 InheritanceCycle "a type can't inherit from itself";
+    P2032 AbstractInstance "an abstract type has no instances";
+    P2033 NotImplementedBy "the type does not implement the interface";
 
     // --- P3 program rules ---
     P3001 AssignToConstant "a constant can't be assigned";
@@ -103,6 +115,18 @@ codes! {
     P3013 WriteToInputImage "the input image can't be written";
     P3014 RetainNotKept "retained values are not kept over a restart by this version" Warning;
     P3015 ReferenceKept "a reference can't be retained or located";
+    P3040 MissingMethod "a method that the type promises is missing";
+    P3041 SignatureMismatch "the method differs from the one that it replaces";
+    P3042 MissingOverride "a method that replaces an inherited one needs OVERRIDE";
+    P3043 OverridesFinal "what is FINAL can't be replaced or extended";
+    P3044 NothingToOverride "OVERRIDE without an inherited method";
+    P3045 AbstractMethod "an ABSTRACT method can't be used like this";
+    P3046 PropertySide "the property lacks GET or SET";
+    P3047 NotBound "nothing is ever assigned to this interface variable" Warning;
+    P3080 AddressLeftOpen "no VAR_CONFIG gives this variable its address";
+    P3081 UnknownInstance "no instance has this path";
+    P3082 NotConfigurable "this can't be given by VAR_CONFIG";
+    P3083 InstanceMismatch "the variable at this path is declared differently";
 
     // --- P4 tasks and configuration ---
     P4001 UnknownTask "no task has this name";
@@ -146,10 +170,17 @@ codes! {
     C0007 UnknownPath "no variable has this path";
     C0008 BadValueText "this text is not a value of the variable's type";
 
+    // --- T tests ---
+    T0001 BadTestPragma "this `{test}` pragma is not understood";
+    T0002 TestInConfiguration "a task can't run a unit test";
+
     // --- F runtime faults and ErrorID numbers ---
     F0001 ParameterOutOfRange "a parameter is out of range";
     F0002 UnknownReference "the axis or channel reference is not one of this controller";
     F0003 LimitExceeded "the target is outside of the software limits";
+    F0006 RetainDamaged "the file of retained values is damaged" Warning;
+    F0007 RetainChanged "a retained variable has changed its type" Warning;
+    F0008 RetainFile "the retained values can't be stored" Warning;
     F0100 NotPowered "the axis is not powered";
     F0101 WrongState "the command is not allowed in this state";
     F0102 NotHomed "the axis is not homed";

@@ -1,5 +1,6 @@
 //! `takt bench`: scan time and compile time of a project on this machine.
 
+use crate::host::PlcHost;
 use crate::project::{self, Problem};
 use crate::session::{self, EngineKind, Session};
 use crate::{Status, diagnostics};
@@ -9,6 +10,7 @@ use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 use takt_motion::machine::Background;
 use takt_runtime::{Options, Resource, Virtual};
+use takt_stdlib::asserts::Asserts;
 
 /// Measure scan and compile time
 #[derive(clap::Args)]
@@ -53,7 +55,8 @@ fn compile_ms(args: &Args) -> Result<f64, Problem> {
 
 fn measure(args: &Args, session: &Session, compile_ms: f64) -> Result<Status, Problem> {
     let options = Options { measure: true, ..session.options()? };
-    let mut resource = session.resource(session.machine(Background::Inline), EngineKind::Native, options)?;
+    let host = PlcHost::new(session.machine(Background::Inline), Asserts::default());
+    let mut resource = session.resource(host, EngineKind::Native, options)?;
     let never = AtomicBool::new(false);
     let scans = args.scans.max(1);
     resource.run_until(&mut Virtual::new(), None, &never, &mut |scan, _| scan.scan < scans);

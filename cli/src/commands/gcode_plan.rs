@@ -74,7 +74,7 @@ fn config(args: &PlanArgs) -> Result<PlanConfig, Problem> {
 
 fn problem(program: &PartProgram, e: PlanError) -> Problem {
     let text = program.sources.get(program.id);
-    let start = (1..e.mark.line).map(|l| text.line(l).len() + 1).sum::<usize>();
+    let start = text.line_start(e.mark.line);
     let span = Span::new(program.id, start, start + text.line(e.mark.line).len());
     let diag = Diag::new(e.error.code, span, e.error.to_string());
     Problem::Diags(vec![diag], program.sources.clone())

@@ -9,6 +9,7 @@ mod gcode_plan;
 pub mod new;
 pub mod run;
 pub mod sim;
+pub mod test;
 
 use crate::Status;
 use crate::project::Problem;

@@ -17,6 +17,7 @@ pub struct Args {
 const BLINK: &[(&str, &str)] = &[
     ("takt.toml", include_str!("../../../examples/01-blink/takt.toml")),
     ("blink.st", include_str!("../../../examples/01-blink/blink.st")),
+    ("blink_test.st", include_str!("../../../examples/01-blink/blink_test.st")),
     ("stimulus.csv", include_str!("../../../examples/01-blink/stimulus.csv")),
     ("README.md", include_str!("../../../examples/01-blink/README.md")),
 ];

@@ -1,18 +1,21 @@
 //! `takt run`: runs in real time until the project says so, a fault, or Ctrl-C.
 
+use crate::host::PlcHost;
 use crate::progress::{self, Display, Reporter};
 use crate::project::{self, Problem};
 use crate::session::{EngineKind, Session, with_stimulus};
-use crate::{Status, duration, report};
+use crate::{Status, asserts, duration, report, retain};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc;
 use std::time::Duration;
 use takt_base::{Code, Nanos};
+use takt_image::retain::Start;
 use takt_motion::machine::Background;
 use takt_runtime::realtime::{Request, enter, on_program_thread};
 use takt_runtime::{Monotonic, Progress};
+use takt_stdlib::asserts::Asserts;
 
 /// Run in real time
 #[derive(clap::Args)]
@@ -30,6 +33,9 @@ pub struct Args {
     /// Write the commanded and actual path
     #[arg(long, value_name = "FILE.svg")]
     picture: Option<PathBuf>,
+    /// Start RETAIN variables from their initial values; PERSISTENT ones keep theirs
+    #[arg(long)]
+    cold: bool,
     #[command(flatten)]
     profile: super::Profile,
 }
@@ -50,15 +56,19 @@ fn execute(args: &Args) -> Result<Status, Problem> {
     let (reporter, sights) = progress::channel();
     let (started, counters) = mpsc::channel();
     std::thread::scope(|scope| {
-        let runner = scope.spawn(|| on_program_thread(|| real_time(args, &session, &stop, reporter, &started)));
+        let runner = scope.spawn({
+            let (session, stop) = (&session, &stop);
+            // The sender goes with the run: an early end drops it, and nobody waits for counters that never come.
+            move || on_program_thread(move || real_time(args, session, stop, reporter, started))
+        });
         let mut display = Display::new(sights);
-        if let Ok(counters) = counters.recv_timeout(Duration::from_secs(10)) {
+        if let Ok(counters) = counters.recv() {
             watch(&mut display, &counters, || runner.is_finished());
         }
         let result = runner.join().unwrap_or_else(|_| Err(std::io::Error::other("the run ended in a panic")));
         display.close();
         let outcome = result.map_err(|e| Problem::thread(&e))??;
-        print!("{}", outcome.summary);
+        say!("{}", outcome.summary.trim_end());
         Ok(outcome.status)
     })
 }
@@ -81,11 +91,17 @@ fn real_time(
     session: &Session,
     stop: &AtomicBool,
     mut reporter: Reporter,
-    started: &mpsc::Sender<Arc<Progress>>,
+    started: mpsc::Sender<Arc<Progress>>,
 ) -> Result<Outcome, Problem> {
     let machine = session.machine(Background::Thread);
-    let resource = session.resource(machine.clone(), EngineKind::Native, session.options()?)?;
+    let asserts = Asserts::default();
+    let host = PlcHost::new(machine.clone(), asserts.clone());
+    let resource = session.resource(host, EngineKind::Native, session.options()?)?;
+    let start = if args.cold { Start::Cold } else { Start::Warm };
+    let resource = retain::restore(&session.image, resource, &session.retain_file(), start);
     let mut resource = with_stimulus(resource, session.stimulus(None)?);
+    let (mut sampler, keeper) = retain::keep(&session.image, session.retain_file()).unzip();
+    let epoch = resource.program_time();
     let stop_when = session.stop_when()?;
     let deadline = args.duration.or(session.duration()?);
     let real_time = enter(&Request::default());
@@ -94,14 +110,22 @@ fn real_time(
     let image = &session.image;
     resource.run_until(&mut clock, deadline, stop, &mut |scan, memory| {
         reporter.send(scan, &machine.borrow());
+        if let Some(sampler) = &mut sampler {
+            sampler.sample(scan.now, epoch + scan.now, memory);
+        }
         !report::is_true(image, stop_when.as_ref(), memory)
     });
+    if let Some(keeper) = keeper {
+        keeper.finish(image, &resource);
+    }
     let end = machine.borrow().report();
     resource.stop(&mut clock);
+    asserts::report(&asserts.borrow(), &image.types);
     report::faults(&resource);
     let machine = machine.borrow();
     let mut summary = format!("{}: {:.2} s, {real_time}\n", session.name, resource.counts().now.as_secs());
     summary += &report::tasks(&resource);
+    summary += &asserts::summary(&asserts.borrow());
     summary += &report::machine(&end, &session.machine);
     if let Some(path) = picture_path(args, session) {
         summary += &write_picture(&path, session, machine.trace())?;

@@ -1,16 +1,19 @@
 //! `takt sim`: runs in virtual time, as fast as it can. The same inputs give the same outputs, bit for bit.
 
+use crate::host::PlcHost;
 use crate::project::Problem;
 use crate::session::{EngineKind, Session, with_stimulus};
 use crate::watch::Watch;
-use crate::{Status, duration, report};
+use crate::{Status, asserts, duration, report, retain};
 use serde_json::json;
 use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
 use takt_base::Nanos;
+use takt_image::retain::Start;
 use takt_image::value::Patch;
 use takt_motion::machine::Background;
 use takt_runtime::{FaultReport, Options, Resource, Stimulus, Virtual, When};
+use takt_stdlib::asserts::Asserts;
 
 /// Run in virtual time
 #[derive(clap::Args)]
@@ -48,6 +51,12 @@ pub struct Args {
     /// Write the set points and actual positions of the axes
     #[arg(long, value_name = "FILE.csv")]
     trace: Option<PathBuf>,
+    /// Start with the retained values of this file, and write them there at the end
+    #[arg(long, value_name = "FILE")]
+    retain: Option<PathBuf>,
+    /// With --retain: a cold start, which keeps PERSISTENT values alone
+    #[arg(long, requires = "retain")]
+    cold: bool,
     #[command(flatten)]
     profile: super::Profile,
 }
@@ -62,6 +71,10 @@ pub fn run(args: Args) -> Status {
 fn execute(args: &Args) -> Result<Status, Problem> {
     let Some(mut session) = Session::open(&args.project, args.profile.get())? else { return Ok(Status::Wrong) };
     if let Some(interval) = args.interval {
+        if interval <= Nanos::ZERO {
+            eprintln!("error: --interval 0s is no period; write for example --interval 10ms");
+            return Ok(Status::Usage);
+        }
         let tasks = session.image.tasks.iter_mut();
         tasks.filter_map(|t| t.interval.as_mut()).for_each(|i| *i = interval);
     }
@@ -77,9 +90,20 @@ fn simulate(args: &Args, session: &Session) -> Result<Status, Problem> {
     let machine = session.machine(Background::Inline);
     let engine = if args.engine == "interp" { EngineKind::Interpreter } else { EngineKind::Native };
     let options = Options { measure: false, ..session.options()? };
-    let resource = session.resource(machine.clone(), engine, options)?;
+    let asserts = Asserts::default();
+    let host = PlcHost::new(machine.clone(), asserts.clone());
+    let resource = session.resource(host, engine, options)?;
+    let start = if args.cold { Start::Cold } else { Start::Warm };
+    let resource = match &args.retain {
+        Some(file) => retain::restore(&session.image, resource, file, start),
+        None => resource,
+    };
     let mut resource = with_stimulus(resource, stimulus(args, session)?);
     drive(args, session, &watch, &mut resource)?;
+    if let Some(file) = &args.retain {
+        let failed = |e| Problem::File(takt_base::Code::FileError, format!("can't write {}: {e}", file.display()));
+        retain::save(&session.image, &resource, file).map_err(failed)?;
+    }
     if let Some(path) = &args.trace {
         report::write_trace(path, machine.borrow().trace(), &session.machine)?;
     }
@@ -87,6 +111,7 @@ fn simulate(args: &Args, session: &Session) -> Result<Status, Problem> {
     if args.format == "json" {
         print_json(session, &watch, &resource, fault.as_ref());
     }
+    asserts::report(&asserts.borrow(), &session.image.types);
     report::faults(&resource);
     Ok(if fault.is_some() { Status::Fault } else { Status::Success })
 }
@@ -102,7 +127,7 @@ fn drive(args: &Args, session: &Session, watch: &Watch, resource: &mut Resource)
     };
     let csv = args.format == "csv";
     if csv {
-        say!("scan,time_ns,{}", watch.names().collect::<Vec<_>>().join(","));
+        say!("scan,time_ns,{}", watch.names().map(cell).collect::<Vec<_>>().join(","));
     }
     if args.scans == Some(0) {
         return Ok(());

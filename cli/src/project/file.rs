@@ -65,6 +65,7 @@ pub struct RunKeys {
     pub on_fault: Option<String>,
     pub watchdog: Option<String>,
     pub picture: Option<String>,
+    pub retain: Option<String>,
 }
 
 #[derive(Clone, Debug, Default, Deserialize, Serialize)]

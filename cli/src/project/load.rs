@@ -63,13 +63,18 @@ const SOURCE_EXTENSIONS: &[&str] = &["st", "il", "exp"];
 pub fn load(paths: &[PathBuf], profile: Option<Profile>) -> Result<Project, Problem> {
     let mut project = match paths {
         [dir] if dir.is_dir() => folder(dir)?,
-        [toml] if toml.file_name().is_some_and(|n| n == "takt.toml") => folder(toml.parent().unwrap_or(Path::new(".")))?,
+        [toml] if toml.file_name().is_some_and(|n| n == "takt.toml") => folder(parent(toml))?,
         files => plain_files(files)?,
     };
     if let Some(profile) = profile {
         project.sources.iter_mut().for_each(|s| s.profile = profile);
     }
     Ok(project)
+}
+
+/// The folder of a file; that of a bare name is the current one.
+fn parent(file: &Path) -> &Path {
+    file.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
 /// Parses the text of a project file; `name` is shown in messages.

@@ -34,6 +34,7 @@ impl Builder<'_> {
                 .help("copy the input to a variable and change that"),
             Access::Inside => Diag::new(Code::AssignToOutput, span, "belongs to the function block")
                 .help("only inputs of a function block can be assigned from outside"),
+            Access::InputImage if self.in_test() => return true,
             Access::InputImage => Diag::new(Code::WriteToInputImage, span, "part of %I")
                 .help("inputs come from the hardware; use %Q or %M for what the program writes"),
         };
@@ -62,6 +63,9 @@ impl Builder<'_> {
             self.report(if vendor { diag.severity(Severity::Warning) } else { diag });
             return vendor;
         }
+        if let Some(pou) = self.scope.pou {
+            self.objects.written.insert((pou, id));
+        }
         if self.scope.pou.is_some_and(|p| self.hir.pous[p].result == Some(id)) {
             self.scope.result_written = true;
         }
@@ -80,7 +84,7 @@ impl Builder<'_> {
             self.report(Diag::new(Code::NotAVariable, e.span, label).also(note.0, note.1).help(help));
             return None;
         }
-        if place.ty != ty {
+        if place.ty != ty && !self.open_takes(ty, place.ty) && !self.derives(place.ty, ty) {
             let label = format!("{}, exactly {} wanted", self.show(place.ty), self.show(ty));
             let help = "a VAR_IN_OUT refers to the variable itself, so nothing can be converted";
             self.report(Diag::new(Code::TypeMismatch, e.span, label).also(note.0, note.1).help(help));
@@ -91,6 +95,9 @@ impl Builder<'_> {
 
     /// `target := value;`
     pub fn assign(&mut self, target: &ast::Expr, value: &ast::Expr) -> Option<StmtKind> {
+        if let Some(call) = self.property_write(target, value) {
+            return call;
+        }
         let Some(target) = self.writable(target) else {
             self.operand(value, None);
             return None;

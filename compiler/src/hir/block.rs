@@ -1,7 +1,7 @@
 //! Calls of function block instances as statements (§4.2, §4.7): inputs that are not given keep their values.
 
 use super::builder::Builder;
-use super::call::Given;
+use super::call::{Enable, Given};
 use super::model::*;
 use super::place::Access;
 use super::scope::Local;
@@ -26,6 +26,7 @@ impl Builder<'_> {
         match (self.local(&name.key()), self.scope.pou) {
             (Some(Local::Var(v)), Some(p)) => self.hir.pous[p].result != Some(v),
             (Some(_), _) => true,
+            (None, _) if self.is_this(name) => true,
             (None, _) => {
                 let function = matches!(self.symbols.units.get(&name.key()), Some((Unit::Pou(_), _)));
                 !function && self.symbols.globals.contains_key(&name.key())
@@ -39,7 +40,8 @@ impl Builder<'_> {
         let (Some(target), Some(id)) = (target.clone(), pou) else {
             if let Some(t) = target.filter(|t| t.place.ty != self.error) {
                 let label = format!("{}, not a function block", self.show(t.place.ty));
-                self.error(Code::NotCallable, callee.span, label);
+                let help = "functions and instances of function blocks are called; of a class its methods";
+                self.report(Diag::new(Code::NotCallable, callee.span, label).help(help));
             }
             args.iter().filter_map(super::body::arg_expr).for_each(|e| drop(self.operand(e, None)));
             return None;
@@ -50,16 +52,27 @@ impl Builder<'_> {
             return None;
         }
         self.note_call(id, span);
-        let given = self.match_arguments(id, args, span)?;
-        self.block_arguments(target.place, id, given, span)
+        self.note_bodies(&target.place, id, span);
+        let declared = self.declared_enable(id);
+        let enable = self.enable(args, declared);
+        let rest = enable.as_ref().map_or(args, |e| &e.rest);
+        let given = self.match_arguments(id, rest, span)?;
+        let own = self.own_enable(&target.place, id, declared, span);
+        let call = self.block_arguments(target.place, id, given, span)?;
+        Some(match (enable, own) {
+            (None, None) => call,
+            (Some(e), own) => self.guarded_block(call, Enable { en: e.en.or(own), ..e }, declared, span),
+            (None, en) => self.guarded_block(call, Enable { en, eno: None, rest: Vec::new() }, declared, span),
+        })
     }
 
     /// The function block that the place is an instance of.
-    fn block_of(&self, place: &Place) -> Option<PouId> {
+    pub(super) fn block_of(&self, place: &Place) -> Option<PouId> {
         if !matches!(self.ty(place.ty), Type::Instance(_)) {
             return None;
         }
-        self.hir.pous.enumerate().find(|(_, p)| p.instance == Some(place.ty)).map(|(id, _)| id)
+        let called = |id: &PouId| matches!(self.hir.pous[*id].kind, PouKind::FunctionBlock | PouKind::Program);
+        self.objects.types.get(&place.ty).copied().filter(called)
     }
 
     fn block_arguments(&mut self, instance: Place, id: PouId, given: Vec<Option<Given>>, span: Span) -> Option<StmtKind> {

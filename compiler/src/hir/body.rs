@@ -24,8 +24,11 @@ impl Builder<'_> {
                 "leave the body empty: it is provided by the controller",
             );
         }
-        let body = self.statements(&decl.body);
-        self.check_result_written(id);
+        let mut body = self.statements(&decl.body);
+        body.extend(self.inherited_body(id, decl));
+        if !self.is_signature(id) {
+            self.check_result_written(id);
+        }
         self.hir.pous[id].body = body;
         self.scope = outer;
     }
@@ -61,11 +64,12 @@ pub(super) fn addresses<'t>(body: &'t [ast::Stmt], on: &mut dyn FnMut(&'t ast::A
                 exprs.push(e);
                 todo.extend(body);
             }
+            StmtKind::Return(Some(e)) | StmtKind::Expression(e) => exprs.push(e),
             StmtKind::Instructions(lines) => {
                 exprs.extend(lines.iter().filter_map(|l| l.instr.as_ref()).flat_map(|i| i.expressions()))
             }
             StmtKind::Label(_) | StmtKind::Jump(_) => {}
-            StmtKind::Exit | StmtKind::Continue | StmtKind::Return | StmtKind::Empty | StmtKind::Error => {}
+            StmtKind::Exit | StmtKind::Continue | StmtKind::Return(None) | StmtKind::Empty | StmtKind::Error => {}
         }
         expression_addresses(exprs, on);
     }

@@ -1,10 +1,11 @@
 //! What all passes share: the program so far, the names, the current scope, and how to report.
 
+use super::convert::Notice;
 use super::image::ImagePlan;
 use super::model::*;
 use super::scope::Scope;
 use super::symbols::Symbols;
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeMap, HashMap, HashSet};
 use takt_base::{Code, Diag, Profile, Severity, Sink, Sources, Span};
 use takt_image::types::{Record, Type};
 use takt_image::{Elementary, TypeId};
@@ -35,8 +36,22 @@ pub(super) struct Builder<'a> {
     pub calls: Vec<(Option<PouId>, PouId, Span)>,
     /// Only the place of a variable is wanted, which may be that of a global whose value is being resolved.
     pub place_only: bool,
-    /// Values that the conversion in progress cuts: where, from what, to what.
-    pub narrowings: Vec<(Span, TypeId, TypeId)>,
+    /// What is unusual about the conversion in progress.
+    pub notices: Vec<Notice>,
+    /// Members that are one bit of their byte, by structure and index: which bit.
+    pub bit_members: HashMap<(TypeId, u32), u32>,
+    /// The next standard function has EN or ENO.
+    pub guards_next: bool,
+    /// A call with EN or ENO is being put together: it stays for the run time, where it tells its errors by ENO.
+    pub unfolded: bool,
+    /// The tests are the machine: see `hir::build_tests`.
+    pub tests: bool,
+    /// Types with their methods and heritage.
+    pub objects: super::objects::Table,
+    /// Program instances of all resources.
+    pub planned: Vec<super::instance::Planned>,
+    /// Initial values of program instances that VAR_CONFIG changes.
+    pub values: BTreeMap<Root, Const>,
     leaves: usize,
     depth: u32,
 }
@@ -60,7 +75,14 @@ impl<'a> Builder<'a> {
             image: ImagePlan::default(),
             calls: Vec::new(),
             place_only: false,
-            narrowings: Vec::new(),
+            notices: Vec::new(),
+            bit_members: HashMap::new(),
+            guards_next: false,
+            unfolded: false,
+            tests: false,
+            objects: super::objects::Table::default(),
+            planned: Vec::new(),
+            values: BTreeMap::new(),
             leaves: 0,
             depth: 0,
         }

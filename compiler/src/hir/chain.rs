@@ -69,7 +69,16 @@ impl Builder<'_> {
     pub(super) fn temporary(&mut self, ty: TypeId, span: Span) -> Option<Place> {
         let pou = self.scope.pou?;
         let init = Const::Zero;
-        let var = Var { name: "?".to_owned(), ty, role: Role::Temp, storage: Storage::Local, init, edge: None, span };
+        let var = Var {
+            name: "?".to_owned(),
+            ty,
+            role: Role::Temp,
+            storage: Storage::Local,
+            init,
+            keep: Keep::Unsaid,
+            edge: None,
+            span,
+        };
         let id = self.hir.pous[pou].vars.push(var);
         Some(Place { base: Base::Var(id), path: Vec::new(), ty, span })
     }

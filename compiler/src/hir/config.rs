@@ -40,8 +40,12 @@ impl<'a> Builder<'a> {
     }
 
     fn default_configuration(&mut self) {
-        let mine = self.hir.pous.enumerate().filter(|(id, p)| p.kind == PouKind::Program && !self.symbols.pous[*id].library);
-        let programs: Vec<_> = mine.map(|(pou, p)| instance(p.name.clone(), pou)).collect();
+        let mine = self.hir.pous.enumerate().filter(|(id, p)| {
+            let entry = &self.symbols.pous[*id];
+            p.kind == PouKind::Program && !entry.library && entry.decl.test.is_none()
+        });
+        let mut programs: Vec<_> = mine.map(|(pou, p)| instance(p.name.clone(), pou)).collect();
+        programs.iter_mut().for_each(|p| p.init = self.values.remove(&p.root()));
         for program in &programs {
             let at = self.symbols.pous[program.pou].decl.name.span;
             self.check_bound(program.pou, at);
@@ -144,7 +148,19 @@ impl<'a> Builder<'a> {
             }
         };
         self.check_bound(pou, decl.name.span);
+        let unit = self.symbols.pous[pou].decl;
+        if unit.test.is_some() {
+            let diag = Diag::new(Code::TestInConfiguration, decl.ty.span, "a unit test").also(unit.name.span, "declared");
+            self.report(diag.help("tests are run by `takt test`, not by tasks"));
+            return None;
+        }
         let mut program = instance(decl.name.text.clone(), pou);
+        program.keep = match decl.retain {
+            Some(true) => Keep::Retain,
+            Some(false) => Keep::NonRetain,
+            None => Keep::Unsaid,
+        };
+        program.init = self.values.remove(&program.root());
         for arg in &decl.connections {
             self.connect(&mut program, arg, decl.name.span);
         }
@@ -152,7 +168,7 @@ impl<'a> Builder<'a> {
     }
 
     /// A task binds nothing to a VAR_IN_OUT (§4.7).
-    fn check_bound(&mut self, pou: PouId, at: Span) {
+    pub(super) fn check_bound(&mut self, pou: PouId, at: Span) {
         let unbound = self.hir.pous[pou].vars.iter().find(|v| v.role == Role::InOut);
         if let Some(var) = unbound {
             let (label, declared) = (format!("a task can't bind `{}`", var.name), var.span);
@@ -226,8 +242,8 @@ impl<'a> Builder<'a> {
     }
 }
 
-fn instance(name: String, pou: PouId) -> ProgramInstance {
-    ProgramInstance { name, pou, inputs: Vec::new(), outputs: Vec::new() }
+pub(super) fn instance(name: String, pou: PouId) -> ProgramInstance {
+    ProgramInstance { name, pou, resource: 0, keep: Keep::Unsaid, init: None, inputs: Vec::new(), outputs: Vec::new() }
 }
 
 /// Reports every direct address in a configuration.

@@ -37,12 +37,21 @@ impl Operand {
     }
 }
 
+/// What is unusual about a conversion that is made all the same.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Notice {
+    /// A value is cut from the one type to the other (vendor).
+    Narrowed(Span, TypeId, TypeId),
+    /// A decimal number where bits are wanted.
+    DecimalBits(Span, TypeId),
+    /// A string literal is cut (vendor).
+    Cut(Span, TypeId),
+}
+
 /// Why a value does not fit.
 enum Misfit {
     /// A constant outside of the range.
     Range,
-    /// A decimal literal where bits are wanted.
-    DecimalBits,
     /// Other types.
     Type,
 }
@@ -65,10 +74,10 @@ impl Builder<'_> {
     /// Like [`Self::fit`]; the note says what wants the type.
     pub fn fit_for(&mut self, o: Operand, to: TypeId, note: Option<(Span, String)>) -> Expr {
         let (span, ty, flex) = (o.expr.span, o.expr.ty, o.flex);
-        self.narrowings.clear();
+        self.notices.clear();
         match self.convert(o, to) {
             Ok(e) => {
-                self.warn_narrowed();
+                self.report_notices();
                 e
             }
             Err(why) => {
@@ -80,15 +89,27 @@ impl Builder<'_> {
         }
     }
 
-    /// Reports what the last conversion has cut (vendor).
-    fn warn_narrowed(&mut self) {
-        for (span, from, to) in std::mem::take(&mut self.narrowings) {
-            let label = format!("{}, narrowed to {}", self.show(from), self.show(to));
-            let diag = Diag::new(Code::Narrowing, span, label).severity(Severity::Warning);
-            self.report(
-                diag.message("a value is narrowed without a conversion")
-                    .help("convert it with a function to say that this is meant"),
-            );
+    /// Reports what was unusual about the last conversion.
+    fn report_notices(&mut self) {
+        for notice in std::mem::take(&mut self.notices) {
+            let diag = match notice {
+                Notice::Narrowed(span, from, to) => {
+                    let label = format!("{}, narrowed to {}", self.show(from), self.show(to));
+                    let diag = Diag::new(Code::Narrowing, span, label).message("a value is narrowed without a conversion");
+                    diag.help("convert it with a function to say that this is meant")
+                }
+                Notice::DecimalBits(span, to) => {
+                    let (target, text) = (self.show(to), self.sources.text(span));
+                    let diag = Diag::new(Code::TypeMismatch, span, format!("a decimal number, {target} wanted"));
+                    let diag = diag.message("a decimal number stands for a pattern of bits");
+                    diag.help(format!("write {target}#{text}, or a based number such as 16#FF"))
+                }
+                Notice::Cut(span, to) => {
+                    let diag = Diag::new(Code::OutOfRange, span, format!("cut to {}", self.show(to)));
+                    diag.message("this string is longer than its variable").help("make the variable longer")
+                }
+            };
+            self.report(diag.severity(Severity::Warning));
         }
     }
 
@@ -109,11 +130,6 @@ impl Builder<'_> {
             Misfit::Range => {
                 let label = format!("outside of {target}");
                 Diag::new(Code::OutOfRange, span, label).help(self.range_help(to))
-            }
-            Misfit::DecimalBits => {
-                let text = self.sources.text(span);
-                let help = format!("write {target}#{text}, or a based number such as 16#FF");
-                Diag::new(Code::TypeMismatch, span, format!("a decimal number, {target} wanted")).help(help)
             }
             Misfit::Type if flex != Flex::Fixed => Diag::new(Code::TypeMismatch, span, format!("a literal, {target} wanted")),
             Misfit::Type => self.mismatch(span, from, to),
@@ -167,6 +183,7 @@ impl Builder<'_> {
     pub fn wrap(&mut self, how: Conversion, expr: Expr, to: TypeId) -> Expr {
         let span = expr.span;
         if let ExprKind::Const(c) = &expr.kind
+            && !self.unfolded
             && let Some(c) = self.fold_conversion(how, c, expr.ty, to)
         {
             return Expr { kind: ExprKind::Const(c), ty: to, span };
@@ -206,10 +223,10 @@ impl Builder<'_> {
             let real = constant::round(target, value as f64);
             return Ok(constant_expr(Const::Real(real), to, e.span));
         }
-        // A decimal number is not a pattern of bits in profile std; 0 and 1 are BOOL.
+        // A decimal number is not a pattern of bits in the standard; 0 and 1 are BOOL.
         let vendor = self.profile(e.span).is_vendor();
         if target.is_bit() && target != Elementary::Bool && !based && !vendor {
-            return Err(Misfit::DecimalBits);
+            self.notices.push(Notice::DecimalBits(e.span, to));
         }
         if !(target.is_int() || target.is_bit()) {
             return Err(Misfit::Type);
@@ -259,15 +276,22 @@ impl Builder<'_> {
             (Type::String { capacity }, false) | (Type::WString { capacity }, true) => *capacity,
             _ => return Err(Misfit::Type),
         };
-        if length > capacity as usize {
+        if length <= capacity as usize {
+            return Ok(constant_expr(c.clone(), to, e.span));
+        }
+        if !self.profile(e.span).is_vendor() {
             return Err(Misfit::Range);
         }
-        Ok(constant_expr(c.clone(), to, e.span))
+        self.notices.push(Notice::Cut(e.span, to));
+        Ok(constant_expr(cut(c, capacity as usize), to, e.span))
     }
 
     fn widen(&mut self, o: Operand, to: TypeId) -> Result<Expr, Misfit> {
         if o.expr.ty == to {
             return Ok(o.expr);
+        }
+        if let Some(e) = self.as_interface_value(&o.expr, to) {
+            return Ok(e);
         }
         if self.pointee(o.expr.ty).is_some() || self.pointee(to).is_some() {
             return self.convert_pointer(&o.expr, to).ok_or(Misfit::Type);
@@ -280,7 +304,7 @@ impl Builder<'_> {
         match lattice::fit(self.profile(o.expr.span), from, target) {
             Fit::Whole => {}
             Fit::Narrowed if self.is_made_of(&o.expr, target) => {}
-            Fit::Narrowed => self.narrowings.push((o.expr.span, o.expr.ty, to)),
+            Fit::Narrowed => self.notices.push(Notice::Narrowed(o.expr.span, o.expr.ty, to)),
             Fit::Duration => return Ok(self.duration_or_number(o.expr, target)),
             Fit::No if self.profile(o.expr.span).is_vendor() && self.is_made_of(&o.expr, target) => {}
             Fit::No => return Err(Misfit::Type),
@@ -311,6 +335,15 @@ impl Builder<'_> {
             }
             _ => Err(Misfit::Type),
         }
+    }
+}
+
+/// The first characters of a constant string.
+fn cut(c: &Const, length: usize) -> Const {
+    match c {
+        Const::String(s) => Const::String(s[..length.min(s.len())].to_vec()),
+        Const::WString(s) => Const::WString(s[..length.min(s.len())].to_vec()),
+        c => c.clone(),
     }
 }
 
@@ -347,6 +380,10 @@ impl Builder<'_> {
             Conversion::RealToInt => {
                 let (low, high) = target?.int_range()?;
                 Const::Int((constant::real(c)?.round_ties_even() as i128).clamp(low, high))
+            }
+            Conversion::RealToIntAway => {
+                let (low, high) = target?.int_range()?;
+                Const::Int((constant::real(c)?.round() as i128).clamp(low, high))
             }
             Conversion::Real => Const::Real(constant::round(target?, constant::real(c)?)),
             Conversion::Bits => fold_bits(c, source?, target?)?,

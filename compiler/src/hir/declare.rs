@@ -5,8 +5,8 @@ use super::constant;
 use super::model::*;
 use super::symbols::State;
 use crate::syntax::ast;
+use takt_base::Code;
 use takt_base::index::Index;
-use takt_base::{Code, Diag};
 
 impl Builder<'_> {
     /// Everything that is declared.
@@ -44,11 +44,12 @@ impl Builder<'_> {
 
     fn resolve_global(&mut self, id: GlobalId, decl: &ast::VarDecl) {
         let used = self.type_ref(&decl.ty);
+        self.check_relative(decl);
         if decl.edge.is_some() {
             self.error(Code::SectionNotAllowed, decl.span, "an edge is detected at inputs of function blocks and programs");
         }
         self.hir.globals[id].ty = used.ty;
-        self.check_kept_reference(used.ty, self.hir.globals[id].retain, decl.at.is_some(), decl.ty.span);
+        self.check_kept_reference(used.ty, self.hir.globals[id].keep.is_kept(), decl.at.is_some(), decl.ty.span);
         let init = decl.init.as_ref().map_or_else(|| used.default.clone(), |i| self.initial(i, &used));
         let span = self.hir.globals[id].span;
         self.check_constant_instance(self.hir.globals[id].constant, used.ty, span);
@@ -59,14 +60,6 @@ impl Builder<'_> {
             if at.area == ast::Area::Input {
                 self.hir.globals[id].init = Const::Zero;
             }
-        }
-    }
-
-    /// RETAIN is accepted, but nothing is kept.
-    pub fn check_retain_kept(&mut self, section: &ast::VarSection) {
-        if section.retain == Some(true) {
-            let help = "the values start from their initial values at every start";
-            self.report(Diag::new(Code::RetainNotKept, section.span, "RETAIN").help(help));
         }
     }
 }

@@ -15,14 +15,14 @@ const AREA_MAX: u64 = 64 * 1024;
 
 /// Who is located.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-enum Owner {
+pub(super) enum Owner {
     Global(GlobalId),
     Var(PouId, VarId),
 }
 
 /// A place relative to the start of its area.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-struct Cell {
+pub(super) struct Cell {
     area: Area,
     byte: u32,
     bit: Option<u8>,
@@ -33,6 +33,9 @@ struct Cell {
 pub(super) struct ImagePlan {
     located: Vec<(Owner, Cell)>,
     areas: HashMap<Owner, Area>,
+    /// Declared with an address that VAR_CONFIG gives: `%Q*`.
+    open: HashMap<Owner, Area>,
+    mirrors: Vec<(Mirror, Cell)>,
     extent: [u32; 3],
     starts: [u32; 3],
 }
@@ -47,6 +50,20 @@ impl ImagePlan {
         self.areas.get(&Owner::Var(pou, id)).copied()
     }
 
+    /// Area of a variable whose address VAR_CONFIG gives.
+    pub fn open_area(&self, owner: Owner) -> Option<Area> {
+        self.open.get(&owner).copied()
+    }
+    /// A derived type leaves open what its base does: the variable has the same id there.
+    pub fn inherit_open(&mut self, base: PouId, derived: PouId, id: VarId) {
+        if let Some(area) = self.open_area(Owner::Var(base, id)) {
+            self.open.insert(Owner::Var(derived, id), area);
+        }
+    }
+    /// True if a unit has variables whose address is open.
+    pub fn has_open(&self, pou: PouId) -> bool {
+        self.open.keys().any(|o| matches!(o, Owner::Var(p, _) if *p == pou))
+    }
     fn place(&self, cell: Cell) -> ImagePlace {
         let byte = self.starts[cell.area as usize] + cell.byte;
         cell.bit.map_or(ImagePlace::Byte(byte), |bit| ImagePlace::Bit(byte, bit))
@@ -88,7 +105,8 @@ impl Builder<'_> {
     fn cell(&mut self, a: &ast::Address, bytes: u64) -> Option<Cell> {
         let (byte, bit) = match (a.size, a.path.as_slice()) {
             (_, []) => {
-                self.unsupported(a.span, "an address that is given later", "write the full address here");
+                let help = "only a declaration leaves it open: name AT %Q* : BOOL;";
+                self.report(Diag::new(Code::BadAddress, a.span, "an open address").help(help));
                 return None;
             }
             (AddressSize::Bit, [n]) => (u64::from(n / 8), Some((n % 8) as u8)),
@@ -113,16 +131,7 @@ impl Builder<'_> {
 
     /// Locates a variable of type `ty` (§3.4): its width must be that of the address.
     fn locate(&mut self, owner: Owner, a: &ast::Address, ty: TypeId, span: Span) {
-        if ty == self.error {
-            return;
-        }
-        let wanted = size_type(a.size);
-        let element = self.array_parts(ty).map_or(ty, |(element, _)| element);
-        let width = self.hir.types.storage(element).map(Elementary::bits);
-        if width != Some(wanted.bits()) || (a.size == AddressSize::Bit && element != ty) {
-            let label = format!("{} at {}", self.show(ty), name_of(a).text);
-            let help = format!("an address of this size takes {} bit", wanted.bits());
-            self.report(Diag::new(Code::AddressMismatch, a.span, label).also(span, "declared").help(help));
+        if ty == self.error || !self.fits_width(a, ty, span) {
             return;
         }
         let bytes = self.hir.types.layout(ty).size;
@@ -132,16 +141,60 @@ impl Builder<'_> {
         self.image.located.push((owner, cell));
     }
 
+    /// A variable `AT %Q*`: VAR_CONFIG gives its address.
+    fn leave_open(&mut self, owner: Owner, a: &ast::Address, ty: TypeId, span: Span) {
+        if a.size == AddressSize::Bit || self.fits_width(a, ty, span) {
+            self.image.open.insert(owner, a.area);
+        }
+    }
+
+    /// The address of a field of one instance.
+    pub(super) fn mirror(&mut self, a: &ast::Address, mut mirror: Mirror, span: Span) {
+        if !self.fits_width(a, mirror.ty, span) {
+            return;
+        }
+        let bytes = self.hir.types.layout(mirror.ty).size;
+        let Some(cell) = self.cell(a, bytes.into()) else { return };
+        self.image.reserve(cell, bytes);
+        mirror.input = cell.area == Area::Input;
+        self.image.mirrors.push((mirror, cell));
+    }
+
+    /// The mirrors, for their initial values.
+    pub(super) fn mirrors(&mut self) -> &mut [(Mirror, Cell)] {
+        &mut self.image.mirrors
+    }
+
+    /// The width of a type must be that of the address.
+    fn fits_width(&mut self, a: &ast::Address, ty: TypeId, span: Span) -> bool {
+        let wanted = size_type(a.size);
+        let element = self.array_parts(ty).map_or(ty, |(element, _)| element);
+        let width = self.hir.types.storage(element).map(Elementary::bits);
+        if width != Some(wanted.bits()) || (a.size == AddressSize::Bit && element != ty) {
+            let label = format!("{} at {}", self.show(ty), name_of(a).text);
+            let help = format!("an address of this size takes {} bit", wanted.bits());
+            self.report(Diag::new(Code::AddressMismatch, a.span, label).also(span, "declared").help(help));
+            return false;
+        }
+        true
+    }
+
     /// Locates a global.
     pub fn locate_global(&mut self, id: GlobalId, a: &ast::Address) {
         let (ty, span) = (self.hir.globals[id].ty, self.hir.globals[id].span);
-        self.locate(Owner::Global(id), a, ty, span);
+        match a.path.is_empty() {
+            true => self.leave_open(Owner::Global(id), a, ty, span),
+            false => self.locate(Owner::Global(id), a, ty, span),
+        }
     }
     /// Locates a variable of a program.
     pub fn locate_var(&mut self, pou: PouId, id: VarId, a: &ast::Address) {
         let var = &self.hir.pous[pou].vars[id];
         let (ty, span) = (var.ty, var.span);
-        self.locate(Owner::Var(pou, id), a, ty, span);
+        match a.path.is_empty() {
+            true => self.leave_open(Owner::Var(pou, id), a, ty, span),
+            false => self.locate(Owner::Var(pou, id), a, ty, span),
+        }
     }
 
     /// Sizes the areas by all addresses of the project and gives every located variable its place.
@@ -151,12 +204,20 @@ impl Builder<'_> {
         let [i, q, m] = self.image.extent;
         let map = MemoryMap::new(i, q, m, 0, 0).unwrap_or_default();
         self.image.starts = [map.inputs.start, map.outputs.start, map.markers.start];
+        self.place_mirrors();
         for (owner, cell) in std::mem::take(&mut self.image.located) {
             let place = self.image.place(cell);
             match owner {
                 Owner::Global(id) => self.hir.globals[id].place = Some(place),
                 Owner::Var(pou, id) => self.hir.pous[pou].vars[id].storage = Storage::Image(place),
             }
+        }
+    }
+
+    fn place_mirrors(&mut self) {
+        for (mut mirror, cell) in std::mem::take(&mut self.image.mirrors) {
+            mirror.place = self.image.place(cell);
+            self.hir.mirrors.push(mirror);
         }
     }
 

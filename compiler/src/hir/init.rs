@@ -6,6 +6,7 @@ use super::constant;
 use super::convert::Operand;
 use super::model::*;
 use super::types::TypeUse;
+use super::types::layout::shifted;
 use crate::syntax::ast::{self, ArrayInit, Init};
 use takt_base::{Code, Diag, Severity, Span};
 use takt_image::TypeId;
@@ -208,6 +209,9 @@ impl Builder<'_> {
             Type::Struct(r) | Type::Instance(r) => r.fields.clone(),
             _ => return self.bad_initial(span, used.ty, "a list of members"),
         };
+        if self.hir.types.overlaps(used.ty) {
+            return self.bad_initial(span, used.ty, "values of members that share their bytes");
+        }
         let mut parts = match &used.default {
             Const::Aggregate(parts) => parts.clone(),
             _ => vec![Const::Zero; fields.len()],
@@ -224,8 +228,10 @@ impl Builder<'_> {
                 self.error(Code::DuplicateName, name.span, "given twice");
             }
             given.push(i);
-            let part = TypeUse { ty: fields[i].ty, default: parts[i].clone() };
-            parts[i] = self.initial(init, &part);
+            let bit = self.bit_members.get(&(used.ty, i as u32)).copied();
+            let ty = if bit.is_some() { self.bool() } else { fields[i].ty };
+            let part = TypeUse { ty, default: parts[i].clone() };
+            parts[i] = shifted(self.initial(init, &part), bit);
         }
         self.charge(parts.iter().map(constant::leaves).sum(), span);
         constant::aggregate(parts)

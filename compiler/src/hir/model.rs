@@ -33,6 +33,8 @@ pub struct Hir {
     pub globals: IndexVec<GlobalId, Global>,
     /// Tasks with their program instances.
     pub tasks: Vec<Task>,
+    /// Variables of single instances that stand for an address, which VAR_CONFIG gives.
+    pub mirrors: Vec<Mirror>,
     /// Bytes used in %I, %Q, %M: one past the highest address.
     pub image_bytes: [u32; 3],
 }
@@ -44,6 +46,12 @@ pub struct Pou {
     pub name: String,
     /// Which.
     pub kind: PouKind,
+    /// Of a method: the type that it is declared in.
+    pub owner: Option<PouId>,
+    /// The function block or class that this one extends. Its variables come first, under the same ids and fields.
+    pub base: Option<PouId>,
+    /// Contents of the hidden first field of instances, if the type takes part in dynamic binding.
+    pub class: Option<u32>,
     /// File of the declaration.
     pub source: SourceId,
     /// For function blocks and programs: the [`takt_image::Type::Instance`] whose fields are `vars` with storage `Field`.
@@ -69,10 +77,22 @@ pub enum PouKind {
     Function,
     FunctionBlock,
     Program,
+    Class,
+    /// Has no body and no variables; its methods are signatures.
+    Interface,
+    /// Of a function block, class, program or interface; see [`Pou::owner`].
+    Method,
+}
+
+impl PouKind {
+    /// Variables start anew at each call; arguments are handed over as parameters.
+    pub fn is_called_by_value(self) -> bool {
+        matches!(self, PouKind::Function | PouKind::Method)
+    }
 }
 
 /// A variable of a unit.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Var {
     /// Name as declared.
     pub name: String,
@@ -84,6 +104,8 @@ pub struct Var {
     pub storage: Storage,
     /// Value at the start of a call (functions, VAR_TEMP) or in a new instance; always complete.
     pub init: Const,
+    /// RETAIN and its kin.
+    pub keep: Keep,
     /// R_EDGE or F_EDGE, with the hidden BOOL field that holds the previous value of the actual input.
     pub edge: Option<(Edge, VarId)>,
     /// Declaration.
@@ -101,6 +123,38 @@ pub enum Role {
     Result,
     /// Made by the compiler.
     Hidden,
+}
+
+/// Whether a variable keeps its value over a restart (§10.4).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Keep {
+    /// Like what it is in.
+    #[default]
+    Unsaid,
+    NonRetain,
+    Retain,
+    /// Over a cold start too (vendor).
+    Persistent,
+}
+
+impl Keep {
+    /// That of a part that says `own`.
+    pub fn or(self, own: Keep) -> Keep {
+        if own == Keep::Unsaid { self } else { own }
+    }
+    /// The value is kept.
+    pub fn is_kept(self) -> bool {
+        matches!(self, Keep::Retain | Keep::Persistent)
+    }
+    /// As the qualifiers of a section say.
+    pub fn of(section: &crate::syntax::ast::VarSection) -> Keep {
+        match (section.constant, section.persistent, section.retain) {
+            (true, ..) | (_, false, Some(false)) => Keep::NonRetain,
+            (_, true, _) => Keep::Persistent,
+            (_, _, Some(true)) => Keep::Retain,
+            (_, _, None) => Keep::Unsaid,
+        }
+    }
 }
 
 /// Where a variable lives.
@@ -127,8 +181,8 @@ pub struct Global {
     pub init: Const,
     /// CONSTANT.
     pub constant: bool,
-    /// RETAIN.
-    pub retain: bool,
+    /// RETAIN and its kin.
+    pub keep: Keep,
     /// Declaration.
     pub span: Span,
 }
@@ -148,6 +202,36 @@ pub struct Task {
     pub programs: Vec<ProgramInstance>,
 }
 
+/// What an instance path begins with.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Root {
+    Global(GlobalId),
+    /// A program instance: number of its resource, and its name in capitals.
+    Program(u32, String),
+}
+
+/// A field of one instance that stands for an address: copied in before each program that may use it runs, and back afterwards.
+#[derive(Clone, Debug)]
+pub struct Mirror {
+    pub root: Root,
+    /// Bytes behind the start of the root.
+    pub offset: u32,
+    pub ty: TypeId,
+    /// The address.
+    pub place: ImagePlace,
+    /// In %I: not copied back.
+    pub input: bool,
+    /// Initial value.
+    pub init: Const,
+}
+
+impl Mirror {
+    /// True if a program instance may use it when it runs.
+    pub fn is_seen_by(&self, program: &ProgramInstance) -> bool {
+        matches!(self.root, Root::Global(_)) || self.root == program.root()
+    }
+}
+
 /// A program instance.
 #[derive(Debug)]
 pub struct ProgramInstance {
@@ -155,6 +239,12 @@ pub struct ProgramInstance {
     pub name: String,
     /// Its type.
     pub pou: PouId,
+    /// Number of its resource.
+    pub resource: u32,
+    /// PROGRAM RETAIN.
+    pub keep: Keep,
+    /// Initial value of the whole instance, if VAR_CONFIG gives one to a part of it.
+    pub init: Option<Const>,
     /// Copied before each run: input (or output) variable of the program, value.
     pub inputs: Vec<(VarId, Expr)>,
     /// Copied after each run.
@@ -284,13 +374,73 @@ pub enum ExprKind {
         pou: PouId,
         args: Vec<Arg>,
     },
+    /// A method; without a result the type is BOOL and means nothing.
+    CallMethod(Box<MethodCall>),
+    /// The offset of an instance, as a value of an interface type.
+    AddressOf(Place),
+    /// The reference itself if its instance is of one of these classes, else NULL.
+    OfClass(Box<Expr>, Vec<u32>),
     Intrinsic(Intrinsic, Vec<Expr>),
+    /// A call with EN or ENO: library errors give their stated value instead of a fault. Not run, it is zero.
+    Guarded(Box<Guarded>),
     /// A library native by its full name; argument order as in the catalogue, scalars already converted. A string result has type
     /// `ty`, a STRING large enough.
     Native {
         name: String,
         args: Vec<Expr>,
     },
+}
+
+/// A call with EN or ENO (language reference §4.8).
+#[derive(Clone, Debug)]
+pub struct Guarded {
+    pub call: Expr,
+    /// Nothing of the call is evaluated if it is FALSE.
+    pub en: Option<Expr>,
+    pub eno: Option<Eno>,
+}
+
+/// Where ENO goes.
+#[derive(Clone, Debug)]
+pub struct Eno {
+    pub target: Place,
+    pub negated: bool,
+    /// The unit declares ENO: the call itself writes the target when it runs.
+    pub written: bool,
+}
+
+/// A call of a method.
+#[derive(Clone, Debug)]
+pub struct MethodCall {
+    pub receiver: Receiver,
+    /// The method of the receiver's static type: it has the signature.
+    pub method: PouId,
+    /// Methods by class number if the instance decides which one runs; empty: `method` runs.
+    pub dynamic: Vec<(u32, PouId)>,
+    /// In order of [`Pou::params`] of `method`.
+    pub args: Vec<Arg>,
+}
+
+impl MethodCall {
+    /// The methods that may run.
+    pub fn targets(&self) -> Vec<PouId> {
+        let mut list: Vec<_> = self.dynamic.iter().map(|d| d.1).collect();
+        if self.dynamic.is_empty() {
+            list.push(self.method);
+        }
+        list.sort();
+        list.dedup();
+        list
+    }
+}
+
+/// Whose method is called.
+#[derive(Clone, Debug)]
+pub enum Receiver {
+    /// An instance.
+    Place(Place),
+    /// A reference to one; NULL traps.
+    Reference(Expr),
 }
 
 /// Conversions between scalar types; source and target storage are in the types.
@@ -308,6 +458,8 @@ pub enum Conversion {
     IntToReal,
     /// Real to integer, nearest even, saturating, NaN to 0.
     RealToInt,
+    /// Like `RealToInt`, halves away from zero (profile codesys).
+    RealToIntAway,
     /// REAL to LREAL or back.
     Real,
     /// DWORD to REAL and the like: same bits.
@@ -349,6 +501,8 @@ pub struct Place {
 pub enum Base {
     /// Variable of the running unit; a VAR_IN_OUT means what it refers to.
     Var(VarId),
+    /// The running instance of the type that the unit is or belongs to.
+    This,
     Global(GlobalId),
     /// Direct address.
     Image(ImagePlace),
@@ -371,7 +525,19 @@ pub enum Step {
     Character(Box<Expr>),
 }
 
+impl ProgramInstance {
+    /// What paths to it begin with.
+    pub fn root(&self) -> Root {
+        Root::Program(self.resource, self.name.to_ascii_uppercase())
+    }
+}
+
 impl Hir {
+    /// True if `sub` is `base` or extends it.
+    pub fn extends(&self, sub: PouId, base: PouId) -> bool {
+        let mut line = std::iter::successors(Some(sub), |id| self.pous[*id].base);
+        line.any(|id| id == base)
+    }
     /// Storage type of a scalar.
     pub fn elementary(&self, ty: TypeId) -> Option<Elementary> {
         self.types.storage(ty)

@@ -3,6 +3,7 @@
 use super::builder::Builder;
 use super::constant;
 use super::convert::{Operand, constant_expr};
+use super::image::Owner;
 use super::model::*;
 use super::scope::{Local, ReadOnly};
 use super::symbols::Unit;
@@ -40,6 +41,9 @@ impl Builder<'_> {
         if ty == self.error {
             return self.bad(span);
         }
+        if self.open_parts(ty).is_some() {
+            return self.whole_open(span);
+        }
         if !matches!(self.ty(ty), Type::Array { .. } | Type::Struct(_) | Type::Instance(_))
             && let Some(c) = self.constant_at(&target.place)
         {
@@ -67,6 +71,7 @@ impl Builder<'_> {
                 let constant = self.scope.read_only.get(&id) == Some(&ReadOnly::Constant);
                 constant.then(|| self.scope.pou.map(|p| &self.hir.pous[p].vars[id].init)).flatten()?
             }
+            Base::This => return self.member_constant(place),
             Base::Image(_) => return None,
         };
         let mut ty = self.base_type(&place.base)?;
@@ -86,6 +91,7 @@ impl Builder<'_> {
         match *base {
             Base::Global(id) => Some(self.hir.globals[id].ty),
             Base::Var(id) => Some(self.hir.pous[self.scope.pou?].vars[id].ty),
+            Base::This => self.hir.pous[self.own_type()?].instance,
             Base::Image(_) | Base::Value(_) => None,
         }
     }
@@ -144,7 +150,9 @@ impl Builder<'_> {
     fn variable(&mut self, n: &ast::Name) -> Option<Target> {
         let id = match self.local(&n.key()) {
             Some(Local::Var(id)) => return Some(self.own_variable(id, n.span)),
+            Some(Local::Member(id)) => return self.own_member(id, n),
             Some(Local::External(id)) => id,
+            None if self.is_this(n) => return self.this_place(n),
             None => match self.global(n) {
                 Some(id) => id,
                 None => {
@@ -162,6 +170,7 @@ impl Builder<'_> {
         let access = match () {
             () if global.constant => Access::Constant(global.span),
             () if self.image.area_of_global(id) == Some(ast::Area::Input) => Access::InputImage,
+            () if self.image.open_area(Owner::Global(id)) == Some(ast::Area::Input) => Access::InputImage,
             () => Access::Write,
         };
         Some(Target { place: Place { base: Base::Global(id), path: Vec::new(), ty: global.ty, span: n.span }, access })
@@ -174,6 +183,7 @@ impl Builder<'_> {
             Some(ReadOnly::Constant) => Access::Constant(var.span),
             Some(ReadOnly::Input) => Access::OwnInput(var.span),
             None if self.image.area_of_var(pou, id) == Some(ast::Area::Input) => Access::InputImage,
+            None if self.image.open_area(Owner::Var(pou, id)) == Some(ast::Area::Input) => Access::InputImage,
             None => Access::Write,
         };
         Target { place: Place { base: Base::Var(id), path: Vec::new(), ty: var.ty, span }, access }
@@ -185,7 +195,9 @@ impl Builder<'_> {
             Some((Unit::Pou(id), _)) => Some(match self.hir.pous[*id].kind {
                 PouKind::Function => "a function: call it with ( )",
                 PouKind::FunctionBlock => "a function block: declare an instance of it",
-                PouKind::Program => "a program",
+                PouKind::Class => "a class: declare an instance of it",
+                PouKind::Interface => "an interface: declare a variable of it",
+                PouKind::Program | PouKind::Method => "a program",
             }),
             None if takt_stdlib::lookup(&n.text).is_some() => Some("a standard function: call it with ( )"),
             None => None,
@@ -208,6 +220,9 @@ impl Builder<'_> {
             Type::Struct(r) => (r, false),
             Type::Instance(r) => (r, true),
             _ => {
+                if let Some(bit) = self.named_bit(&base.place, name) {
+                    return self.part(base, ast::AddressSize::Bit, bit, span);
+                }
                 let label = format!("{} has no members", self.show(base.place.ty));
                 let diag = Diag::new(Code::UnknownMember, name.span, label);
                 let pointer = self.pointee(base.place.ty).is_some();
@@ -215,9 +230,16 @@ impl Builder<'_> {
                 return None;
             }
         };
-        let index = record.fields.iter().position(|f| name.is(&f.name) && f.section != Section::Hidden);
+        let index = record.fields.iter().rposition(|f| name.is(&f.name) && f.section != Section::Hidden);
+        let index = index.or_else(|| {
+            let pin = self.vendor_pin(base.place.ty, name)?;
+            record.fields.iter().rposition(|f| f.name == pin)
+        });
         let Some(index) = index else {
             let known = record.fields.iter().filter(|f| f.section != Section::Hidden).map(|f| f.name.clone()).collect();
+            if self.method_without_call(base.place.ty, name) {
+                return None;
+            }
             self.unknown(Code::UnknownMember, name, known);
             return None;
         };
@@ -227,12 +249,21 @@ impl Builder<'_> {
             self.report(Diag::new(Code::UnknownMember, name.span, "a VAR_IN_OUT is not visible from outside").help(help));
             return None;
         }
-        let access = match (base.access, instance && section != Section::Input) {
+        let writable = section == Section::Input || self.is_own_place(&base.place) || self.is_public_var(base.place.ty, index);
+        if instance && !self.check_var_access(base.place.ty, index, name) {
+            return None;
+        }
+        let access = match (base.access, instance && !writable) {
             (Access::Write, true) => Access::Inside,
             (access, _) => access,
         };
+        let bit = self.bit_members.get(&(base.place.ty, index as u32)).copied();
         let mut place = base.place;
         place.path.push(Step::Field(index as u32));
+        if let Some(bit) = bit {
+            place.path.push(Step::Part { bit, width: 1 });
+            return Some(Target { place: Place { ty: self.bool(), span, ..place }, access });
+        }
         Some(Target { place: Place { ty, span, ..place }, access })
     }
 
@@ -253,6 +284,10 @@ impl Builder<'_> {
             }
             target = self.through_references(target);
             let (step, ty, used) = match self.ty(target.place.ty) {
+                &Type::Open { element, dims } => {
+                    let any = Dim { low: i32::MIN, high: i32::MAX };
+                    (self.element(&vec![any; dims as usize], rest, e.span)?, element, dims as usize)
+                }
                 Type::Pointer { .. } => {
                     self.codesys_form(e.span, "an index behind a pointer");
                     let index = self.index(rest[0], i32::MIN.into(), i32::MAX.into())?;
@@ -263,6 +298,12 @@ impl Builder<'_> {
                 Type::Array { element, dims } => {
                     let (element, dims) = (*element, dims.clone());
                     (self.element(&dims, rest, e.span)?, element, dims.len())
+                }
+                // The vendors count from 0 and have bytes, the zero behind the last included (§2.9).
+                &(Type::String { capacity } | Type::WString { capacity }) if self.profile(e.span).string_index_base() == 0 => {
+                    let wide = matches!(self.ty(target.place.ty), Type::WString { .. });
+                    let unit = if wide { Elementary::Word } else { Elementary::Byte };
+                    (Step::Index(vec![self.index(rest[0], 0, capacity.into())?]), self.elem(unit), 1)
                 }
                 Type::String { capacity } => (self.character(*capacity, rest[0])?, self.elem(Elementary::Char), 1),
                 Type::WString { capacity } => (self.character(*capacity, rest[0])?, self.elem(Elementary::Wchar), 1),
@@ -304,6 +345,13 @@ impl Builder<'_> {
             return None;
         }
         let o = self.settle(o);
+        let o = match *self.ty(o.ty) {
+            Type::Enum { base, .. } if self.profile(e.span).is_codesys() => {
+                let to = self.elem(base);
+                self.wrap(Conversion::Integer, o, to)
+            }
+            _ => o,
+        };
         let Some(kind) = self.elementary(o.ty).filter(|k| self.counts(*k, o.span)) else {
             let label = format!("{}, an integer wanted", self.show(o.ty));
             self.report(Diag::new(Code::TypeMismatch, e.span, label).help("an index is an integer"));
@@ -323,6 +371,17 @@ impl Builder<'_> {
         Some(if o.ty == to { o } else { self.wrap(Conversion::Integer, o, to) })
     }
 
+    /// `w.cBit` (vendor): the number of a bit as a constant.
+    fn named_bit(&mut self, base: &Place, name: &ast::Name) -> Option<u32> {
+        let bits = self.elementary_or_base(base.ty).is_some_and(|e| e.is_int() || e.is_bit());
+        let known = self.local(&name.key()).is_some() || self.symbols.globals.contains_key(&name.key());
+        if !bits || !known || !self.profile(name.span).is_codesys() {
+            return None;
+        }
+        let e = ast::Expr { kind: ast::ExprKind::Name(name.clone()), span: name.span };
+        self.const_int(&e).and_then(|v| u32::try_from(v).ok())
+    }
+
     fn elementary_or_base(&self, ty: TypeId) -> Option<Elementary> {
         self.hir.types.storage(ty).filter(|_| self.pointee(ty).is_none())
     }
@@ -332,9 +391,9 @@ impl Builder<'_> {
         if base.place.ty == self.error {
             return None;
         }
-        let whole = self
-            .elementary_or_base(base.place.ty)
-            .filter(|e| *e != Elementary::Bool && (e.is_bit() || e.is_int() && self.profile(span).is_codesys()));
+        let vendor = self.profile(span).is_vendor();
+        let bits = |e: &Elementary| e.is_bit() && *e != Elementary::Bool || e.is_int() && vendor;
+        let whole = self.elementary_or_base(base.place.ty).filter(bits);
         let Some(whole) = whole.filter(|_| !ends_in_part(&base.place)) else {
             let help = "convert an integer to a bit string first, for example with INT_TO_WORD";
             let label = format!("{} has no bits to name", self.show(base.place.ty));

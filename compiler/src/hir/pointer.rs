@@ -17,6 +17,16 @@ impl Builder<'_> {
         if self.local(&key).is_some() || self.symbols.units.contains_key(&key) {
             return None;
         }
+        if matches!(&*key, "LOWER_BOUND" | "UPPER_BOUND") {
+            use ast::Arg::{Input, Positional};
+            let [Positional(array) | Input { value: Some(array), .. }, Positional(dim) | Input { value: Some(dim), .. }] = args
+            else {
+                let label = format!("{key} has two arguments: an array and the number of a dimension");
+                self.error(Code::WrongArgumentCount, span, label);
+                return Some(self.bad(span));
+            };
+            return Some(self.bound_of(array, dim, key == "UPPER_BOUND", span));
+        }
         let one = match args {
             [ast::Arg::Positional(e) | ast::Arg::Input { value: Some(e), .. }] => Some(e),
             _ => None,
@@ -42,8 +52,19 @@ impl Builder<'_> {
 
     fn adr(&mut self, e: &ast::Expr, span: Span) -> Operand {
         let Some(place) = self.referable(e) else { return self.bad(span) };
+        if let Some((element, _)) = self.open_parts(place.ty) {
+            return self.start_of(place, element, span);
+        }
         let ty = self.pointer_to(PointerKind::Pointer, place.ty);
         Operand::fixed(Expr { kind: ExprKind::Address(place), ty, span })
+    }
+
+    /// The place of the first element of an array of variable length.
+    fn start_of(&mut self, mut place: Place, element: TypeId, span: Span) -> Operand {
+        let (udint, ty) = (self.elem(Elementary::Udint), self.pointer_to(PointerKind::Pointer, element));
+        place.path.push(Step::Field(0));
+        let load = Expr { kind: ExprKind::Load(Place { ty: udint, ..place }), ty: udint, span };
+        Operand::fixed(self.wrap(Conversion::Integer, load, ty))
     }
 
     /// Bytes of a variable or type.

@@ -39,11 +39,11 @@ impl Builder<'_> {
         if let ast::TypeRefKind::Named(name) = &t.kind
             && Elementary::from_name(&name.text).is_none()
         {
-            match self.symbols.units.get(&name.key()) {
-                Some(&(Unit::Type(index), _)) if matches!(self.symbols.types[index].decl.body, ast::TypeBody::Struct(_)) => {
+            match self.named_unit(name) {
+                Some(Unit::Type(index)) if matches!(self.symbols.types[index].decl.body, ast::TypeBody::Struct(_)) => {
                     return self.reserved_type(index);
                 }
-                Some(&(Unit::Pou(id), _)) if self.hir.pous[id].kind == PouKind::FunctionBlock => {
+                Some(Unit::Pou(id)) if self.hir.pous[id].kind == PouKind::FunctionBlock => {
                     return self.reserved_instance(id);
                 }
                 _ => {}
@@ -76,6 +76,10 @@ impl Builder<'_> {
     pub(super) fn null(&mut self, span: Span, want: Option<TypeId>) -> Operand {
         match want.filter(|ty| self.pointee(*ty).is_some()) {
             Some(ty) => Operand::fixed(constant_expr(Const::Int(0), ty, span)),
+            None if want.is_some_and(|w| matches!(self.ty(w), Type::Reference { .. })) => {
+                let ty = self.null_type();
+                Operand::fixed(constant_expr(Const::Int(0), ty, span))
+            }
             None if want == Some(self.error) => self.bad(span),
             None => {
                 let help = "NULL is a value of references: compare it with one, or assign it to one";
@@ -125,6 +129,9 @@ impl Builder<'_> {
     /// `REF(v)`.
     pub(super) fn ref_of(&mut self, e: &ast::Expr, span: Span) -> Operand {
         let Some(place) = self.referable(e) else { return self.bad(span) };
+        if self.open_parts(place.ty).is_some() {
+            return self.whole_open(span);
+        }
         let ty = self.pointer_to(PointerKind::RefTo, place.ty);
         Operand::fixed(Expr { kind: ExprKind::Address(place), ty, span })
     }
@@ -186,7 +193,7 @@ impl Builder<'_> {
                 Some(Storage::Image(at)) => Some(at),
                 _ => None,
             },
-            Base::Value(_) => None,
+            Base::This | Base::Value(_) => None,
         };
         matches!(at, Some(At::Bit(..)))
     }
@@ -198,6 +205,9 @@ impl Builder<'_> {
             return None;
         };
         let ty = target.ty;
+        if matches!(self.ty(ty), Type::Reference { .. }) {
+            return self.attempt_interface(target, value);
+        }
         if ty != self.error && !matches!(self.pointee(ty), Some((_, PointerKind::RefTo))) {
             let label = format!("{}, a reference wanted", self.show(ty));
             self.report(Diag::new(Code::TypeMismatch, target.span, label).help("write := to assign values"));
@@ -234,6 +244,7 @@ impl Builder<'_> {
             return self.value(e, ty);
         }
         let o = match self.referable(e) {
+            Some(place) if self.open_parts(place.ty).is_some() => self.whole_open(e.span),
             Some(place) => {
                 let from = self.pointer_to(PointerKind::RefTo, place.ty);
                 Operand::fixed(Expr { kind: ExprKind::Address(place), ty: from, span: e.span })
@@ -247,7 +258,7 @@ impl Builder<'_> {
     pub(super) fn reference_fits(&self, from: TypeId, to: TypeId) -> bool {
         use PointerKind::*;
         match (self.pointee(from), self.pointee(to)) {
-            (Some((a, RefTo | Reference)), Some((b, RefTo | Reference))) => a == b,
+            (Some((a, RefTo | Reference)), Some((b, RefTo | Reference))) => a == b || self.derives(a, b),
             (Some(_), Some((_, Pointer))) => true,
             (Some((a, Pointer)), Some((b, Reference))) => a == b,
             _ => false,

@@ -13,6 +13,10 @@ use takt_image::TypeId;
 pub(super) struct Scope {
     pub pou: Option<PouId>,
     pub names: HashMap<String, (Local, Span)>,
+    /// Names of the type that a method belongs to.
+    pub members: HashMap<String, Local>,
+    /// Variables of that type that must not be written.
+    pub fixed_members: HashMap<VarId, ReadOnly>,
     /// Anonymous enumerations declared here.
     pub enums: Vec<TypeId>,
     /// Earlier values of the enumeration that is being declared.
@@ -47,6 +51,8 @@ pub(super) enum ReadOnly {
 pub(super) enum Local {
     Var(VarId),
     External(GlobalId),
+    /// Variable of the type that the running method belongs to.
+    Member(VarId),
 }
 
 impl Builder<'_> {
@@ -62,7 +68,7 @@ impl Builder<'_> {
 
     /// The variable of this name in the unit.
     pub fn local(&self, key: &str) -> Option<Local> {
-        self.scope.names.get(key).map(|l| l.0)
+        self.scope.names.get(key).map(|l| l.0).or_else(|| self.scope.members.get(key).copied())
     }
 
     /// The global of this name; its direct use without VAR_EXTERNAL is mentioned once a unit.

@@ -5,7 +5,7 @@ use super::constant;
 use super::convert::Operand;
 use super::model::*;
 use crate::syntax::ast;
-use takt_base::{Code, Diag, Span};
+use takt_base::{Code, Diag, Severity, Span};
 use takt_image::types::Type;
 use takt_image::{Elementary, TypeId};
 
@@ -18,6 +18,10 @@ impl Builder<'_> {
             match &s.kind {
                 ast::StmtKind::Instructions(lines) => out.append(&mut self.instructions(lines, s.span)),
                 ast::StmtKind::Chain { targets, value } => out.append(&mut self.chain(targets, value, s.span)),
+                ast::StmtKind::Return(Some(value)) => {
+                    out.extend(self.returned(value, s.span));
+                    out.push(Stmt { kind: StmtKind::Return, span: s.span });
+                }
                 _ => out.extend(self.deeper(s.span, |b| b.statement(s)).flatten()),
             }
         }
@@ -51,14 +55,39 @@ impl Builder<'_> {
             }
             ast::StmtKind::Exit => self.inside_loop(StmtKind::Exit, "EXIT", s.span)?,
             ast::StmtKind::Continue => self.inside_loop(StmtKind::Continue, "CONTINUE", s.span)?,
-            ast::StmtKind::Return => StmtKind::Return,
+            ast::StmtKind::Return(_) => StmtKind::Return,
+            ast::StmtKind::Expression(e) => {
+                self.no_effect(e);
+                return None;
+            }
             ast::StmtKind::Label(name) => self.label_statement(name)?,
             ast::StmtKind::Jump(name) => self.jump_statement(name)?,
             ast::StmtKind::Instructions(_) | ast::StmtKind::Chain { .. } | ast::StmtKind::Empty | ast::StmtKind::Error => {
                 return None;
             }
         };
-        Some(Stmt { kind, span: s.span })
+        Some(Stmt { kind: self.hoist_enable(kind, s.span), span: s.span })
+    }
+
+    /// `RETURN value;` (an extension): the value becomes the result of the function.
+    fn returned(&mut self, value: &ast::Expr, span: Span) -> Option<Stmt> {
+        let Some(result) = self.scope.pou.and_then(|p| self.hir.pous[p].result) else {
+            let help = "only a function with a result returns a value";
+            self.report(Diag::new(Code::NotAVariable, value.span, "there is no result here").help(help));
+            return None;
+        };
+        let ty = self.hir.pous[self.scope.pou?].vars[result].ty;
+        self.scope.result_written = true;
+        let value = self.value(value, ty);
+        let target = Place { base: Base::Var(result), path: Vec::new(), ty, span };
+        Some(Stmt { kind: StmtKind::Assign { target, value }, span })
+    }
+
+    /// An expression that stands alone (vendor).
+    fn no_effect(&mut self, e: &ast::Expr) {
+        self.operand(e, None);
+        let diag = Diag::new(Code::VendorForm, e.span, "its value is forgotten").severity(Severity::Warning);
+        self.report(diag.message("this statement has no effect").help("assign the value, or leave the statement out"));
     }
 
     fn loop_body(&mut self, body: &[ast::Stmt]) -> Vec<Stmt> {
@@ -206,6 +235,12 @@ impl Builder<'_> {
             self.error(Code::NotCallable, e.span, "not a call");
             return None;
         };
+        if let Some(call) = self.body_call(callee, args, e.span) {
+            return call;
+        }
+        if let Some(o) = self.method_call(callee, args, e.span) {
+            return (!self.is_bad(&o)).then_some(StmtKind::Call(o.expr));
+        }
         if let Some(call) = self.block_call(callee, args, e.span) {
             return call;
         }

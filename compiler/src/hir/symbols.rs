@@ -97,6 +97,7 @@ impl<'a> Builder<'a> {
             }
         }
         self.collect_configurations();
+        self.number_classes();
     }
 
     fn collect_item(&mut self, item: &'a ast::Item, source: SourceId, library: bool, names: &Names) {
@@ -130,16 +131,35 @@ impl<'a> Builder<'a> {
     }
 
     fn collect_pou(&mut self, decl: &'a ast::Pou, source: SourceId, library: bool) {
+        let id = self.enter_pou(decl, source, library);
+        let kind = self.hir.pous[id].kind;
+        let is_new = self.unit_name(&decl.name, Unit::Pou(id));
+        if decl.external && !library && takt_stdlib::native_signature(&decl.name.key()).is_some() {
+            self.error(Code::DuplicateName, decl.name.span, "a native of the library has this name");
+        } else if is_new && kind == model::PouKind::Function {
+            self.warn_replaced(&decl.name);
+        }
+        self.collect_methods(id, decl, source, library);
+    }
+
+    /// A new entry in the tables of units.
+    pub fn enter_pou(&mut self, decl: &'a ast::Pou, source: SourceId, library: bool) -> PouId {
         let kind = match decl.kind {
             ast::PouKind::Function => model::PouKind::Function,
             ast::PouKind::FunctionBlock => model::PouKind::FunctionBlock,
             ast::PouKind::Program => model::PouKind::Program,
+            ast::PouKind::Class => model::PouKind::Class,
+            ast::PouKind::Interface => model::PouKind::Interface,
+            ast::PouKind::Method => model::PouKind::Method,
         };
         let id =
             self.symbols.pous.push(PouEntry { decl, library, state: State::Pending, reserved: None, scope: Scope::default() });
         self.hir.pous.push(Pou {
             name: decl.name.text.clone(),
             kind,
+            owner: None,
+            base: None,
+            class: None,
             source,
             instance: None,
             vars: IndexVec::new(),
@@ -150,12 +170,7 @@ impl<'a> Builder<'a> {
             end: end_keyword(decl),
             reachable: false,
         });
-        let is_new = self.unit_name(&decl.name, Unit::Pou(id));
-        if decl.external && !library && takt_stdlib::native_signature(&decl.name.key()).is_some() {
-            self.error(Code::DuplicateName, decl.name.span, "a native of the library has this name");
-        } else if is_new && kind == model::PouKind::Function {
-            self.warn_replaced(&decl.name);
-        }
+        id
     }
 
     fn warn_replaced(&mut self, name: &ast::Name) {
@@ -191,7 +206,6 @@ impl<'a> Builder<'a> {
                 self.collect_global(section, decl, name, library);
             }
         }
-        self.check_retain_kept(section);
     }
 
     fn collect_global(&mut self, section: &ast::VarSection, decl: &'a ast::VarDecl, name: &ast::Name, library: bool) {
@@ -201,7 +215,7 @@ impl<'a> Builder<'a> {
             place: None,
             init: Const::Zero,
             constant: section.constant,
-            retain: section.retain == Some(true),
+            keep: Keep::of(section),
             span: name.span,
         });
         self.symbols.global_entries.push(GlobalEntry { decl, library, state: State::Pending });
@@ -256,6 +270,10 @@ fn end_keyword(decl: &ast::Pou) -> Span {
         ast::PouKind::Function => "END_FUNCTION",
         ast::PouKind::FunctionBlock => "END_FUNCTION_BLOCK",
         ast::PouKind::Program => "END_PROGRAM",
+        ast::PouKind::Class => "END_CLASS",
+        ast::PouKind::Interface => "END_INTERFACE",
+        ast::PouKind::Method if decl.objects.accessor.is_some() => "END_GET",
+        ast::PouKind::Method => "END_METHOD",
     }
     .len() as u32;
     Span { start: decl.span.end.saturating_sub(length).max(decl.span.start), ..decl.span }

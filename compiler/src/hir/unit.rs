@@ -34,7 +34,14 @@ impl Builder<'_> {
     }
 
     fn resolve_pou(&mut self, id: PouId, decl: &ast::Pou) {
-        if decl.kind == ast::PouKind::Function {
+        let kind = self.hir.pous[id].kind;
+        match kind {
+            PouKind::Interface => return self.declare_interface(id, decl),
+            PouKind::Method => self.enter_owner(id),
+            PouKind::Function => {}
+            _ => self.inherit(id, decl),
+        }
+        if kind.is_called_by_value() {
             self.declare_result(id, decl);
         }
         // Constants first: bounds and lengths may use one that is declared further down.
@@ -46,7 +53,7 @@ impl Builder<'_> {
                 self.declare_vars(id, decl, section, d);
             }
         }
-        if decl.kind != ast::PouKind::Function {
+        if !kind.is_called_by_value() {
             self.lay_out(id, decl);
         }
     }
@@ -68,9 +75,17 @@ impl Builder<'_> {
         self.declare_local(&decl.name, Local::Var(var));
     }
 
-    fn push_var(&mut self, id: PouId, name: &ast::Name, ty: TypeId, role: Role, storage: Storage, init: Const) -> VarId {
+    pub(super) fn push_var(
+        &mut self,
+        id: PouId,
+        name: &ast::Name,
+        ty: TypeId,
+        role: Role,
+        storage: Storage,
+        init: Const,
+    ) -> VarId {
         let init = if self.charge(constant::leaves(&init) - 1, name.span) { init } else { Const::Zero };
-        let var = Var { name: name.text.clone(), ty, role, storage, init, edge: None, span: name.span };
+        let var = Var { name: name.text.clone(), ty, role, storage, init, keep: Keep::Unsaid, edge: None, span: name.span };
         self.hir.pous[id].vars.push(var)
     }
 
@@ -82,7 +97,9 @@ impl Builder<'_> {
         if section.kind == SectionKind::Global {
             return;
         }
-        let used = self.type_ref(&d.ty);
+        let outer = std::mem::replace(&mut self.objects.abstract_allowed, section.kind == SectionKind::InOut);
+        let used = self.declared_var_type(pou, section, &d.ty);
+        self.objects.abstract_allowed = outer;
         self.check_decl(pou, section, d, used.ty);
         self.check_kept_reference(used.ty, section.retain == Some(true), d.at.is_some(), d.ty.span);
         let init = d.init.as_ref().map_or_else(|| used.default.clone(), |i| self.initial(i, &used));
@@ -110,11 +127,22 @@ impl Builder<'_> {
             _ => Role::Local,
         };
         let var = next(&self.hir.pous[id].vars);
-        if !self.declare_local(name, Local::Var(var)) {
+        if !self.declare_own(id, name, Local::Var(var)) {
             return;
         }
-        let init = if role == Role::InOut { Const::Zero } else { used.default.clone() };
+        if let Some(access) = section.access {
+            self.objects.var_access.insert((id, var), (access, id));
+        }
+        let enables = matches!((role, d.init.is_none()), (Role::Input, true)) && name.is("EN")
+            || role == Role::Output && d.init.is_none() && name.is("ENO");
+        let on = enables && self.elementary(used.ty) == Some(Elementary::Bool) && !self.profile(name.span).is_codesys();
+        let init = match role {
+            Role::InOut => Const::Zero,
+            _ if on => Const::Int(1),
+            _ => used.default.clone(),
+        };
         self.push_var(id, name, used.ty, role, Storage::Local, init);
+        self.hir.pous[id].vars[var].keep = Keep::of(section);
         if matches!(role, Role::Input | Role::Output | Role::InOut) {
             self.hir.pous[id].params.push(var);
         }
@@ -125,7 +153,12 @@ impl Builder<'_> {
         if let Some(edge) = d.edge {
             self.hir.pous[id].vars[var].edge = Some((edge, var));
         }
-        if let Some(at) = d.at.as_ref().filter(|_| pou.kind == ast::PouKind::Program && section.kind == SectionKind::Var) {
+        let may_locate = |at: &&ast::Address| {
+            let block = matches!(pou.kind, ast::PouKind::FunctionBlock | ast::PouKind::Class);
+            let kind = pou.kind == ast::PouKind::Program || block && at.path.is_empty();
+            kind && section.kind == SectionKind::Var
+        };
+        if let Some(at) = d.at.as_ref().filter(may_locate) {
             self.locate_var(id, var, at);
             if at.area == ast::Area::Input {
                 self.hir.pous[id].vars[var].init = Const::Zero;
@@ -171,7 +204,7 @@ impl Builder<'_> {
     /// The instance: inputs, outputs, in-outs, variables, edge memory (§3.11).
     fn lay_out(&mut self, id: PouId, decl: &ast::Pou) {
         self.add_edge_memory(id);
-        let mut order: Vec<(Section, VarId)> = Vec::new();
+        let mut order = self.inherited_fields(id);
         for (section, role) in [
             (Section::Input, Role::Input),
             (Section::Output, Role::Output),
@@ -183,9 +216,11 @@ impl Builder<'_> {
                 .vars
                 .enumerate()
                 .filter(|(v, var)| var.role == role && self.image.area_of_var(id, *v).is_none());
-            order.extend(vars.map(|(v, _)| (section, v)));
+            let new: Vec<_> = vars.map(|(v, _)| (section, v)).filter(|(_, v)| order.iter().all(|o| o.1 != *v)).collect();
+            order.extend(new);
         }
-        let retained = retained(decl);
+        let mut retained = retained(decl);
+        retained.extend(self.inherited_retain(id));
         let mut members = Vec::new();
         for (i, &(section, v)) in order.iter().enumerate() {
             let var = &mut self.hir.pous[id].vars[v];
@@ -200,6 +235,7 @@ impl Builder<'_> {
         self.hir.types.replace(ty, Type::Instance(record));
         self.defaults.insert(ty, default);
         self.hir.pous[id].instance = Some(ty);
+        self.objects.types.insert(ty, id);
     }
 
     /// The hidden variable of each edge input holds the previous value of the actual input (§3.3).
@@ -209,7 +245,9 @@ impl Builder<'_> {
             let var = &self.hir.pous[id].vars[v];
             let Some((edge, _)) = var.edge else { continue };
             let name = ast::Name { text: format!("{}.edge", var.name), span: var.span };
+            let keep = var.keep;
             let memory = self.push_var(id, &name, bool, Role::Hidden, Storage::Local, Const::Zero);
+            self.hir.pous[id].vars[memory].keep = keep;
             self.hir.pous[id].vars[v].edge = Some((edge, memory));
         }
     }

@@ -2,6 +2,11 @@
 //! From: IEC 61131-3 edition 3, §6 and §7.3. Shared by all textual languages.
 #![allow(missing_docs)] // the names of fields and variants say it; what they do not say stands beside them
 
+mod config;
+mod operator;
+
+pub use config::{AccessDecl, ConfigDecl, Configuration, InstancePath, PathPart, ProgramDecl, Resource, TaskDecl};
+pub use operator::{BinaryOp, UnaryOp};
 use takt_base::Span;
 
 /// An identifier as written; compare with [`Name::is`].
@@ -41,7 +46,7 @@ pub enum Item {
     Configuration(Configuration),
 }
 
-/// FUNCTION, FUNCTION_BLOCK or PROGRAM.
+/// FUNCTION, FUNCTION_BLOCK, PROGRAM, CLASS, INTERFACE, or a METHOD of one of the last four.
 #[derive(Clone, Debug)]
 pub struct Pou {
     /// Which.
@@ -54,8 +59,14 @@ pub struct Pou {
     pub sections: Vec<VarSection>,
     /// Statements.
     pub body: Vec<Stmt>,
+    /// What belongs to object orientation: modifiers, heritage, methods.
+    pub objects: Objects,
     /// `{external}` stands before it: the body is a native.
     pub external: bool,
+    /// `{extern ..}` in its body: inline C of MATIEC.
+    pub inline_c: Option<Span>,
+    /// `{test}` stands before it.
+    pub test: Option<super::test_pragma::TestPragma>,
     /// From the first to the last keyword.
     pub span: Span,
 }
@@ -65,6 +76,48 @@ pub enum PouKind {
     Function,
     FunctionBlock,
     Program,
+    Class,
+    Interface,
+    Method,
+}
+
+/// The object-oriented side of a unit (§6.6.5 to §6.6.7).
+#[derive(Clone, Debug, Default)]
+pub struct Objects {
+    /// Of the unit or method itself.
+    pub modifiers: Modifiers,
+    /// EXTENDS: one type, or several interfaces.
+    pub extends: Vec<Name>,
+    /// IMPLEMENTS.
+    pub implements: Vec<Name>,
+    /// Methods, and the GET and SET of properties, in order.
+    pub methods: Vec<Pou>,
+    /// GET or SET of a property, of which a method is made.
+    pub accessor: Option<Accessor>,
+}
+
+/// Words in front of the name of a type or method, each with its place.
+#[derive(Clone, Debug, Default)]
+pub struct Modifiers {
+    pub access: Option<(AccessSpec, Span)>,
+    pub is_abstract: Option<Span>,
+    pub is_final: Option<Span>,
+    pub is_override: Option<Span>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum AccessSpec {
+    Public,
+    Protected,
+    Private,
+    Internal,
+}
+
+/// The two sides of a PROPERTY (vendor).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Accessor {
+    Get,
+    Set,
 }
 
 /// VAR ... END_VAR.
@@ -76,6 +129,10 @@ pub struct VarSection {
     pub constant: bool,
     /// RETAIN (true), NON_RETAIN (false) or neither.
     pub retain: Option<bool>,
+    /// PUBLIC, PROTECTED, PRIVATE, INTERNAL.
+    pub access: Option<AccessSpec>,
+    /// PERSISTENT (vendor): kept over a cold start too.
+    pub persistent: bool,
     /// Declarations in order.
     pub decls: Vec<VarDecl>,
     /// The opening keyword and its qualifiers.
@@ -100,6 +157,8 @@ pub struct VarDecl {
     pub names: Vec<Name>,
     /// AT.
     pub at: Option<Address>,
+    /// AT in a structure.
+    pub relative: Option<RelativeAddress>,
     /// Type.
     pub ty: TypeRef,
     /// R_EDGE or F_EDGE.
@@ -108,6 +167,28 @@ pub struct VarDecl {
     pub init: Option<Init>,
     /// All of it.
     pub span: Span,
+}
+
+/// `%B2`, `%X3.0`: a place in a structure.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RelativeAddress {
+    /// X or B.
+    pub size: AddressSize,
+    pub byte: u32,
+    /// 0 if left out.
+    pub bit: u32,
+    /// Where.
+    pub span: Span,
+}
+
+/// STRUCT with addresses, STRUCT OVERLAP or UNION.
+#[derive(Clone, Debug)]
+pub struct LayoutDecl {
+    pub members: Vec<VarDecl>,
+    /// Members may share bytes.
+    pub overlap: bool,
+    /// All members begin at 0.
+    pub union: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -210,8 +291,15 @@ pub enum TypeRefKind {
         kind: takt_image::types::PointerKind,
         target: Box<TypeRef>,
     },
+    /// `ARRAY [*, *] OF T`.
+    OpenArray {
+        dims: usize,
+        element: Box<TypeRef>,
+    },
     /// Anonymous enumeration.
     Enum(EnumDecl),
+    /// STRUCT with addresses, STRUCT OVERLAP or UNION.
+    Layout(LayoutDecl),
     /// Anonymous structure (vendor).
     Struct(Vec<VarDecl>),
     /// Something was wrong here and has been reported.
@@ -244,45 +332,6 @@ impl Init {
             Init::Array(_, s) | Init::Struct(_, s) => *s,
         }
     }
-}
-
-/// CONFIGURATION ... END_CONFIGURATION.
-#[derive(Clone, Debug)]
-pub struct Configuration {
-    /// Its name.
-    pub name: Name,
-    /// Configuration globals.
-    pub globals: Vec<VarSection>,
-    /// Resources; one without a name if tasks and programs stand directly in the configuration.
-    pub resources: Vec<Resource>,
-}
-
-/// RESOURCE name ON type.
-#[derive(Clone, Debug)]
-pub struct Resource {
-    pub name: Option<Name>,
-    pub globals: Vec<VarSection>,
-    pub tasks: Vec<TaskDecl>,
-    pub programs: Vec<ProgramDecl>,
-}
-
-/// `TASK name (SINGLE := s, INTERVAL := T#10ms, PRIORITY := 1);`
-#[derive(Clone, Debug)]
-pub struct TaskDecl {
-    pub name: Name,
-    pub single: Option<Expr>,
-    pub interval: Option<Expr>,
-    pub priority: Option<Expr>,
-}
-
-/// `PROGRAM name WITH task : Type (in := global, out => global);`
-#[derive(Clone, Debug)]
-pub struct ProgramDecl {
-    pub name: Name,
-    pub retain: Option<bool>,
-    pub task: Option<Name>,
-    pub ty: Name,
-    pub connections: Vec<Arg>,
 }
 
 /// A statement.
@@ -344,7 +393,10 @@ pub enum StmtKind {
     },
     Exit,
     Continue,
-    Return,
+    /// `RETURN`, `RETURN value` (vendor).
+    Return(Option<Expr>),
+    /// An expression that is no call (vendor): evaluated, and its value forgotten.
+    Expression(Expr),
     /// `name:` (vendor).
     Label(Name),
     /// `JMP name;` (vendor).
@@ -394,7 +446,7 @@ pub struct Expr {
 #[derive(Clone, Debug)]
 pub enum ExprKind {
     Literal(Literal),
-    /// A variable, enumerator or function name.
+    /// A variable, enumerator or function name; also THIS and SUPER.
     Name(Name),
     /// `Color#Red`.
     Enumerator {
@@ -465,59 +517,4 @@ pub enum Literal {
         ty: takt_image::Elementary,
         value: Box<Literal>,
     },
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum UnaryOp {
-    Neg,
-    Plus,
-    Not,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum BinaryOp {
-    Or,
-    Xor,
-    And,
-    Eq,
-    Ne,
-    Lt,
-    Gt,
-    Le,
-    Ge,
-    Add,
-    Sub,
-    Mul,
-    Div,
-    Mod,
-    Power,
-    /// AND_THEN, OR_ELSE (vendor): always short-circuit.
-    AndThen,
-    OrElse,
-}
-
-impl BinaryOp {
-    /// As the user writes it.
-    pub const fn text(self) -> &'static str {
-        use BinaryOp::*;
-        match self {
-            Or => "OR",
-            Xor => "XOR",
-            And => "AND",
-            Eq => "=",
-            Ne => "<>",
-            Lt => "<",
-            Gt => ">",
-            Le => "<=",
-            Ge => ">=",
-            Add => "+",
-            Sub => "-",
-            Mul => "*",
-            Div => "/",
-            Mod => "MOD",
-            Power => "**",
-            AndThen => "AND_THEN",
-            OrElse => "OR_ELSE",
-        }
-    }
 }

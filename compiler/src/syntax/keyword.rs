@@ -60,7 +60,7 @@ keywords! {
         EndFunction "END_FUNCTION" EndFunctionBlock "END_FUNCTION_BLOCK" EndProgram "END_PROGRAM" EndType "END_TYPE"
         EndConfiguration "END_CONFIGURATION" EndClass "END_CLASS" EndInterface "END_INTERFACE" EndNamespace "END_NAMESPACE"
         EndResource "END_RESOURCE" EndVar "END_VAR" EndStruct "END_STRUCT" EndMethod "END_METHOD" EndAction "END_ACTION"
-        EndStep "END_STEP" EndTransition "END_TRANSITION"
+        EndProperty "END_PROPERTY" EndGet "END_GET" EndSet "END_SET" EndStep "END_STEP" EndTransition "END_TRANSITION"
     }
     Reserved {
         Abstract "ABSTRACT" Action "ACTION" And "AND" Array "ARRAY" At "AT" By "BY" Constant "CONSTANT" Do "DO" Extends "EXTENDS"
@@ -82,7 +82,8 @@ keywords! {
     }
     Free {
         AndThen "AND_THEN" OrElse "OR_ELSE" Union "UNION" EndUnion "END_UNION" Pointer "POINTER" Reference "REFERENCE"
-        Persistent "PERSISTENT" VarStat "VAR_STAT" VarInst "VAR_INST" Property "PROPERTY" EndProperty "END_PROPERTY"
+        Persistent "PERSISTENT" VarStat "VAR_STAT" VarInst "VAR_INST" Property "PROPERTY" PropertyGet "PROPERTY_GET"
+        PropertySet "PROPERTY_SET"
         Actions "ACTIONS" EndActions "END_ACTIONS" Jmp "JMP" Void "VOID"
         // Misspellings that are common enough to be understood.
         Elseif "ELSEIF" Elif "ELIF" Endif "ENDIF" Endfor "ENDFOR" Endwhile "ENDWHILE" Endcase "ENDCASE" Endrepeat "ENDREPEAT"
@@ -124,8 +125,8 @@ impl Kw {
         let types = matches!(self, Ldate | Ltod | LtimeOfDay | Ldt | LdateAndTime | Ltime | Char | Wchar);
         objects || types || matches!(self, Null | Ref | RefTo | Overlap | Continue)
     }
-    /// True for a reserved word that older dialects also take as a name, where it can mean nothing else.
-    pub(crate) fn is_name_in_older(self) -> bool {
+    /// True for a reserved word that the vendors also take as a name, where it can mean nothing else.
+    pub(crate) fn is_name_elsewhere(self) -> bool {
         use Kw::*;
         matches!(self, Action | Step | InitialStep | Transition | On | From | REdge | FEdge | Task | With | ReadOnly | ReadWrite)
     }

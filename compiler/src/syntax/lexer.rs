@@ -143,6 +143,10 @@ pub(crate) struct Tokens {
     pub(crate) list: Vec<Token>,
     /// Positions in `list` before which `{external}` stands, ascending.
     pub(crate) external: Vec<usize>,
+    /// Inline C of MATIEC: the position in `list` behind it, and its place; ascending.
+    pub(crate) inline_c: Vec<(usize, Span)>,
+    /// `{test ...}` pragmas: position in `list` of the token that follows, and text with its place, ascending.
+    pub(crate) tests: Vec<(usize, String, Span)>,
     /// A comment or pragma that is not closed (and has been reported) hides the end of the text.
     pub(crate) cut: bool,
 }
@@ -161,6 +165,8 @@ pub(crate) fn lex(text: &str, source: SourceId, profile: Profile, report: &mut R
         report,
         nested,
         external: Vec::new(),
+        inline_c: Vec::new(),
+        tests: Vec::new(),
         conditional: Conditional::default(),
         profile,
         cut: false,
@@ -190,7 +196,7 @@ pub(crate) fn lex(text: &str, source: SourceId, profile: Profile, report: &mut R
     scan.close_conditional();
     let end = text.len() as u32;
     list.push(Token { kind: Tok::Eof, kw: Kw::None, start: end, end });
-    Tokens { list, external: scan.external, cut: scan.cut }
+    Tokens { list, external: scan.external, inline_c: scan.inline_c, tests: scan.tests, cut: scan.cut }
 }
 
 /// The word that opens a graphical body in a CODESYS 2 export (language reference §17).
@@ -205,6 +211,8 @@ struct Scan<'t, 'r, 's> {
     nested: bool,
     report: &'r mut Report<'s>,
     external: Vec<usize>,
+    inline_c: Vec<(usize, Span)>,
+    tests: Vec<(usize, String, Span)>,
     /// `{IF ..}` of CODESYS; not followed in other profiles.
     conditional: Conditional,
     profile: Profile,
@@ -376,10 +384,15 @@ impl Scan<'_, '_, '_> {
         self.logos.bump(n + close.len());
         if text.eq_ignore_ascii_case("external") {
             self.external.push(before);
+        } else if super::test_pragma::is_test(text) {
+            self.tests.push((before, text.to_owned(), Span { start: opener.start, ..self.span() }));
         } else if self.profile.is_codesys()
             && let Some(followed) = self.conditional.follow(text)
         {
             self.check_conditional(followed);
+        } else if self.profile == Profile::OpenPlc && is_inline_c(text) {
+            let span = self.span();
+            self.inline_c.push((before, span));
         } else if let Some(what) = unsupported_pragma(text) {
             let diag = Diag::new(Code::NotSupportedYet, self.span(), "would change the program");
             self.report.push(diag.message(format!("{what} is not supported by this version")));
@@ -453,7 +466,12 @@ fn unsupported_pragma(text: &str) -> Option<&'static str> {
     if is("#include") {
         return Some("the include pragma");
     }
-    (is("extern") || is("{extern")).then_some("inline C")
+    is_inline_c(text).then_some("inline C")
+}
+
+/// `{extern int x; ..}`
+fn is_inline_c(text: &str) -> bool {
+    text.trim_start_matches('{').split(char::is_whitespace).next().is_some_and(|w| w.eq_ignore_ascii_case("extern"))
 }
 
 /// What to type instead of a character that a word processor has put there.

@@ -33,7 +33,11 @@ pub(super) const RUNS: &[(&str, Run)] = &[
 /// The number, or 0 if a digit is above 9.
 fn to_number(call: &mut NativeCall, digits: u32) -> Result<(), Trap> {
     let bits = call.i64(0) as u64;
-    call.result = (0..digits).rev().try_fold(0, |number, i| digit(bits, i).map(|d| number * 10 + d)).unwrap_or(0);
+    let number = (0..digits).rev().try_fold(0, |number, i| digit(bits, i).map(|d| number * 10 + d));
+    if number.is_none() {
+        call.fail();
+    }
+    call.result = number.unwrap_or(0);
     Ok(())
 }
 
@@ -49,12 +53,16 @@ fn to_digits(call: &mut NativeCall, digits: u32) -> Result<(), Trap> {
         call.result |= (number % 10) << (4 * i);
         number /= 10;
     }
+    if number != 0 {
+        call.fail();
+    }
     Ok(())
 }
 
 /// A negative number has no digits: 0.
 fn int_to_digits(call: &mut NativeCall, _: Types) -> Result<(), Trap> {
     if call.i64(0) < 0 {
+        call.fail();
         call.result = 0;
         return Ok(());
     }

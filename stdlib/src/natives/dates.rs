@@ -23,6 +23,9 @@ pub(super) const RUNS: &[(&str, Run)] = &[
 ];
 
 fn give(call: &mut NativeCall, value: Option<i64>) -> Result<(), Trap> {
+    if value.is_none() {
+        call.fail();
+    }
     call.result = value.unwrap_or(0) as u64;
     Ok(())
 }
@@ -30,6 +33,9 @@ fn give(call: &mut NativeCall, value: Option<i64>) -> Result<(), Trap> {
 /// Modulo 24 h.
 fn tod_plus(call: &mut NativeCall, sign: i128) -> Result<(), Trap> {
     let sum = i128::from(call.i64(0)) + sign * i128::from(call.i64(1));
+    if !(0..i128::from(DAY_NS)).contains(&sum) {
+        call.fail();
+    }
     give(call, Some(sum.rem_euclid(i128::from(DAY_NS)) as i64))
 }
 

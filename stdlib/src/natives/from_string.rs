@@ -1,5 +1,6 @@
 //! Text as values: leading blanks, then a literal of the type, with or without its prefix, and nothing behind it; everything else is
 //! 0. Integers and durations out of range saturate. From: library reference §2.4; literals as in language reference §1.5, §1.7.
+//! CODESYS: the longest beginning that is a literal counts, and no text is an error.
 //! Runs: cyclic.
 
 use super::Types;
@@ -17,7 +18,15 @@ pub(super) fn from_string(call: &mut NativeCall, types: Types) -> Result<(), Tra
     let text = source(call, 0, width(types.from))?;
     let mut buffer = [0; LITERAL_MAX];
     let literal = read(call, text, &mut buffer);
-    call.result = literal.and_then(|literal| value(without_prefix(literal, to), to)).unwrap_or(0);
+    let codesys = types.profile.is_codesys();
+    let value = literal.map(|literal| without_prefix(literal, to)).and_then(|literal| match codesys {
+        true => beginning(literal, to),
+        false => value(literal, to),
+    });
+    if !value.as_ref().map_or(codesys, |v| v.exact) {
+        call.fail();
+    }
+    call.result = value.map_or(0, |v| v.slot);
     Ok(())
 }
 
@@ -46,10 +55,18 @@ fn without_prefix(literal: &[u8], to: E) -> &[u8] {
     if ty.is_some_and(|ty| ty.widens_to(to)) { literal.get(at + 1..).unwrap_or(&[]) } else { literal }
 }
 
-/// The slot of a literal.
-fn value(literal: &[u8], to: E) -> Option<u64> {
+/// What a literal says.
+struct Parsed {
+    slot: u64,
+    /// It is in the range of the type.
+    exact: bool,
+}
+
+/// The value of a literal.
+fn value(literal: &[u8], to: E) -> Option<Parsed> {
+    let mut exact = true;
     let mut cursor = Cursor::new(literal);
-    let value = match to {
+    let slot = match to {
         E::Real => u64::from(real::<f32>(&mut cursor)?.to_bits()),
         E::Lreal => real::<f64>(&mut cursor)?.to_bits(),
         E::Bool => boolean(&mut cursor)?,
@@ -59,10 +76,21 @@ fn value(literal: &[u8], to: E) -> Option<u64> {
         E::Dt | E::Ldt => literals::instant(&mut cursor)? as u64,
         _ => {
             let (low, high) = to.int_range()?;
-            literals::integer(&mut cursor)?.clamp(low, high) as u64
+            let value = literals::integer(&mut cursor)?;
+            exact = (low..=high).contains(&value);
+            value.clamp(low, high) as u64
         }
     };
-    cursor.at_end().then_some(value)
+    cursor.at_end().then_some(Parsed { slot, exact })
+}
+
+/// Longest text of CODESYS that is looked at.
+const CODESYS_MAX: usize = 255;
+
+/// The value of the longest beginning that is a literal.
+fn beginning(text: &[u8], to: E) -> Option<Parsed> {
+    let text = text.get(..CODESYS_MAX).unwrap_or(text);
+    (1..=text.len()).rev().find_map(|len| value(text.get(..len)?, to))
 }
 
 /// TRUE, FALSE, 1, 0.

@@ -41,6 +41,9 @@ fn number(call: &NativeCall, types: Types, slot: usize) -> f64 {
 
 fn give(call: &mut NativeCall, types: Types, value: f64) -> Result<(), Trap> {
     let value = if value.is_nan() { f64::NAN } else { value };
+    if !value.is_finite() || (is_real(types) && (value as f32).is_infinite()) {
+        call.fail();
+    }
     call.result = if is_real(types) { u64::from((value as f32).to_bits()) } else { value.to_bits() };
     Ok(())
 }

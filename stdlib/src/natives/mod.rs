@@ -2,28 +2,35 @@
 //!
 //! **Names.** A catalogue function with lowering `Native` is called `NAME_T` (`SIN_LREAL`, `LEFT_WSTRING`), without T `NAME`. A
 //! conversion is called `FROM_TO_TO` with the short names of the types (`INT_TO_STRING`, `TIME_TO_DINT`); [`native_conversion`] says
-//! which conversions are natives. Helpers that stand behind inline functions are in [`helpers`].
+//! which conversions are natives, [`native_conversion_in`] which of them a vendor has in a form of its own, with the profile behind
+//! the name (`REAL_TO_STRING_CODESYS`). Helpers that stand behind inline functions are in [`helpers`].
 //!
 //! **Slots**, in this order: the inputs, then the place of a string result. A scalar takes one slot of its machine type (TIME, DATE
 //! and the like I64, CHAR I8), an input with a pattern of its own (L, P, YEAR) one I64, a string two I32: offset and capacity.
 //! CONCAT takes 2 to 14 strings. The result of every other function is a scalar. Source and target should not overlap; if they do,
 //! the text may be wrong, but nothing outside of the target is written.
 
+mod asserts;
 mod bcd;
 mod conversions;
 mod dates;
+mod exchange;
 mod from_string;
 pub mod helpers;
 mod literals;
 mod math;
 mod numbers;
+mod printf;
 mod strings;
 mod text;
 mod to_string;
 
+use crate::asserts::Asserts;
 use crate::catalog::{Function, Lowering, Pattern, functions};
 use crate::lookup::ConversionType;
-pub use conversions::native_conversion;
+use asserts::Assertion;
+pub use conversions::{native_conversion, native_conversion_in};
+use takt_base::Profile;
 use takt_image::natives::MAX_SLOTS;
 use takt_image::{BindError, Elementary, Generic, NativeCall, NativeImport, NativeKind, Natives, Scalar, Trap, TypeTable};
 
@@ -35,18 +42,27 @@ pub(crate) type Run = fn(&mut NativeCall, Types) -> Result<(), Trap>;
 pub(crate) struct Types {
     from: ConversionType,
     to: ConversionType,
+    /// Dialect whose rules it follows.
+    profile: Profile,
 }
 
 impl Types {
     const fn both(ty: ConversionType) -> Self {
-        Self { from: ty, to: ty }
+        Self { from: ty, to: ty, profile: Profile::Std }
     }
 }
 
 /// The natives that an image has bound.
 #[derive(Default)]
 pub struct Library {
-    bound: Vec<(Run, Types)>,
+    bound: Vec<Bound>,
+    asserts: Asserts,
+}
+
+#[derive(Clone, Copy)]
+enum Bound {
+    Function(Run, Types),
+    Assertion(Assertion),
 }
 
 impl Library {
@@ -54,25 +70,37 @@ impl Library {
     pub fn new() -> Self {
         Self::default()
     }
+    /// With nothing bound; outcomes of assertions go to this log.
+    pub fn with_asserts(asserts: Asserts) -> Self {
+        Self { bound: Vec::new(), asserts }
+    }
 }
 
 impl Natives for Library {
     fn bind(&mut self, import: &NativeImport, _types: &TypeTable) -> Result<u32, BindError> {
-        let native = find(&import.name).ok_or(BindError::Unknown)?;
-        native.check(import)?;
-        self.bound.push((native.run, native.types));
+        self.bound.push(match Assertion::find(&import.name) {
+            Some(assertion) if import.kind == assertion.kind() => Bound::Assertion(assertion),
+            Some(assertion) => return Err(mismatch(import, &assertion.kind())),
+            None => {
+                let native = find(&import.name).ok_or(BindError::Unknown)?;
+                native.check(import)?;
+                Bound::Function(native.run, native.types)
+            }
+        });
         Ok(self.bound.len() as u32 - 1)
     }
 
     fn call(&mut self, native: u32, call: &mut NativeCall) -> Result<(), Trap> {
-        let &(run, types) = self.bound.get(native as usize).ok_or(Trap::NativePanic)?;
-        run(call, types)
+        match *self.bound.get(native as usize).ok_or(Trap::NativePanic)? {
+            Bound::Function(run, types) => run(call, types),
+            Bound::Assertion(assertion) => assertion.run(call, &mut self.asserts.borrow_mut()),
+        }
     }
 }
 
 /// Signature of the native of this name, in upper case; `None` if the library has none. CONCAT is given with two inputs.
 pub fn native_signature(name: &str) -> Option<NativeKind> {
-    find(name).map(|native| native.kind())
+    Assertion::find(name).map(Assertion::kind).or_else(|| find(name).map(|native| native.kind()))
 }
 
 /// A native before it is bound.
@@ -100,11 +128,12 @@ impl Native {
             }
             kind => *kind == self.kind(),
         };
-        if fits {
-            return Ok(());
-        }
-        Err(BindError::Mismatch(format!("{} is {:?}, not {:?}", import.name, self.kind(), import.kind)))
+        if fits { Ok(()) } else { Err(mismatch(import, &self.kind())) }
     }
+}
+
+fn mismatch(import: &NativeImport, kind: &NativeKind) -> BindError {
+    BindError::Mismatch(format!("{} is {kind:?}, not {:?}", import.name, import.kind))
 }
 
 /// A catalogue function, a conversion, or a helper.
@@ -123,7 +152,7 @@ fn function(name: &str) -> Option<Native> {
     let ty = ConversionType::from_name(suffix)?;
     let fits = match ty {
         ConversionType::Elementary(e) => e.is_in(function.group()?),
-        _ => function.group()? == Generic::AnyString,
+        _ => matches!(function.group()?, Generic::AnyString | Generic::AnyElementary),
     };
     if fits { of_function(function, Types::both(ty)) } else { None }
 }
@@ -143,7 +172,7 @@ fn of_function(function: &Function, types: Types) -> Option<Native> {
 }
 
 /// Code of the catalogue functions.
-const RUNS: &[&[(&str, Run)]] = &[math::RUNS, strings::RUNS, dates::RUNS, bcd::RUNS];
+const RUNS: &[&[(&str, Run)]] = &[math::RUNS, strings::RUNS, dates::RUNS, bcd::RUNS, exchange::RUNS];
 
 /// The type that a pattern stands for.
 fn resolve(pattern: Pattern, ty: ConversionType) -> ConversionType {

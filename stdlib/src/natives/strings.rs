@@ -34,12 +34,14 @@ fn as_int(n: usize) -> u64 {
 /// Slots: IN, L, target.
 fn left(call: &mut NativeCall, types: Types) -> Result<(), Trap> {
     let text = source(call, 0, width(types.from))?;
+    fail_if(call, call.i64(2) < 0);
     give(call, types, 3, &[text.first(call.i64(2))])
 }
 
 /// Slots: IN, L, target.
 fn right(call: &mut NativeCall, types: Types) -> Result<(), Trap> {
     let text = source(call, 0, width(types.from))?;
+    fail_if(call, call.i64(2) < 0);
     let count = call.i64(2).clamp(0, text.len as i64);
     give(call, types, 3, &[text.after(text.len as i64 - count)])
 }
@@ -48,6 +50,7 @@ fn right(call: &mut NativeCall, types: Types) -> Result<(), Trap> {
 fn mid(call: &mut NativeCall, types: Types) -> Result<(), Trap> {
     let text = source(call, 0, width(types.from))?;
     let (count, position) = (call.i64(2), call.i64(3));
+    fail_if(call, count < 0 || position < 1 || position > text.len as i64);
     let part = if position < 1 { Text::EMPTY } else { text.part(position - 1, count) };
     give(call, types, 4, &[part])
 }
@@ -66,6 +69,7 @@ fn concat(call: &mut NativeCall, types: Types) -> Result<(), Trap> {
 fn insert(call: &mut NativeCall, types: Types) -> Result<(), Trap> {
     let (text, new) = two(call, types)?;
     let position = call.i64(4);
+    fail_if(call, position < 0 || position > text.len as i64);
     let new = if position < 0 { Text::EMPTY } else { new };
     give(call, types, 5, &[text.first(position), new, text.after(position)])
 }
@@ -74,6 +78,7 @@ fn insert(call: &mut NativeCall, types: Types) -> Result<(), Trap> {
 fn delete(call: &mut NativeCall, types: Types) -> Result<(), Trap> {
     let text = source(call, 0, width(types.from))?;
     let (count, position) = (call.i64(2), call.i64(3));
+    fail_if(call, count < 0 || position < 1 || position > text.len as i64);
     if position < 1 || count <= 0 {
         return give(call, types, 4, &[text]);
     }
@@ -86,6 +91,7 @@ fn replace(call: &mut NativeCall, types: Types) -> Result<(), Trap> {
     let (text, new) = two(call, types)?;
     let (count, position) = (call.i64(4), call.i64(5));
     if position < 1 || position > text.len as i64 + 1 || count < 0 {
+        call.fail();
         return give(call, types, 6, &[text]);
     }
     let rest = text.after(position - 1).after(count);
@@ -101,6 +107,13 @@ fn find(call: &mut NativeCall, types: Types) -> Result<(), Trap> {
     let at = (0..starts).find(|i| hay.get(i * w..).is_some_and(|rest| rest.starts_with(needle)));
     call.result = at.map_or(0, |i| as_int(i + 1));
     Ok(())
+}
+
+/// Notes an error of the positions.
+fn fail_if(call: &mut NativeCall, wrong: bool) {
+    if wrong {
+        call.fail();
+    }
 }
 
 fn two(call: &NativeCall, types: Types) -> Result<(Text, Text), Trap> {

@@ -126,11 +126,22 @@ fn put(call: &mut NativeCall, target: &Target, i: usize, value: u16) {
     }
 }
 
+/// A string with the bytes of every character swapped; those of STRING are one byte.
+pub(super) fn swap_bytes(call: &mut NativeCall, types: Types) -> Result<(), Trap> {
+    let from = source(call, 0, width(types.from))?;
+    let to = target(call, 2, width(types.from))?;
+    let wide = to.width == 2;
+    store_units(call, &to, from.len, |call, i| if wide { from.unit(call, i).swap_bytes() } else { from.unit(call, i) })
+}
+
 /// STRING to WSTRING and back; a character that the target does not have becomes `?`.
 pub(super) fn string_to_string(call: &mut NativeCall, types: Types) -> Result<(), Trap> {
     let from = source(call, 0, width(types.from))?;
     let to = target(call, 2, width(types.to))?;
     let narrow = to.width == 1;
+    if narrow && (0..from.len).any(|i| from.unit(call, i) > 0xFF) {
+        call.fail();
+    }
     store_units(call, &to, from.len, |call, i| if narrow { narrowed(from.unit(call, i)) } else { from.unit(call, i) })
 }
 
@@ -138,6 +149,9 @@ pub(super) fn string_to_string(call: &mut NativeCall, types: Types) -> Result<()
 pub(super) fn char_to_string(call: &mut NativeCall, types: Types) -> Result<(), Trap> {
     let to = target(call, 1, width(types.to))?;
     let code = call.u32(0) as u16;
+    if to.width == 1 && code > 0xFF {
+        call.fail();
+    }
     let code = if to.width == 1 { narrowed(code) } else { code };
     store_units(call, &to, 1, |_, _| code)
 }
@@ -147,12 +161,19 @@ pub(super) fn string_to_char(call: &mut NativeCall, types: Types) -> Result<(), 
     let from = source(call, 0, width(types.from))?;
     let code = from.unit(call, 0);
     let is_char = types.to == ConversionType::Elementary(takt_image::Elementary::Char);
+    if from.len == 0 || (is_char && code > 0xFF) {
+        call.fail();
+    }
     call.result = if is_char { narrowed(code) } else { code }.into();
     Ok(())
 }
 
 pub(super) fn wchar_to_char(call: &mut NativeCall, _: Types) -> Result<(), Trap> {
-    call.result = narrowed(call.u32(0) as u16).into();
+    let code = call.u32(0) as u16;
+    if code > 0xFF {
+        call.fail();
+    }
+    call.result = narrowed(code).into();
     Ok(())
 }
 

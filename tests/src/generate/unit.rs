@@ -45,6 +45,7 @@ impl Generator {
     fn common(&mut self) {
         self.line("VAR c0 : DINT; c1 : INT; c2 : USINT; w0, w1, w2 : INT; yes : BOOL := TRUE; n, r0, r1 : Pct; END_VAR");
         self.line("VAR cell : Cell; txt : STRING[10] := 'ABC'; wtx : WSTRING[5]; END_VAR");
+        self.line("VAR rg : REF_TO INT := REF(gi); rp : REF_TO Point := REF(gp); rr : REF_TO LREAL := REF(gr); END_VAR");
         self.line("VAR_EXTERNAL CONSTANT KI : INT; KR : REAL; KW : WORD; END_VAR");
         self.line("VAR_EXTERNAL gi : INT; gr : LREAL; gp : Point; gdur : TIME; gw : WORD; gb : BOOL; END_VAR");
         for (text, e) in [
@@ -64,6 +65,9 @@ impl Generator {
         }
         for (text, ty, declared) in [
             ("gp", Ty::Point, "Point"),
+            ("rg^", Ty::E(E::Int), "INT"),
+            ("rr^", Ty::E(E::Lreal), "LREAL"),
+            ("rp^", Ty::Point, "Point"),
             ("n", Ty::E(E::Int), "Pct"),
             ("cell", Ty::Cell, "Cell"),
             ("txt", Ty::Text, "STRING[10]"),
@@ -71,6 +75,9 @@ impl Generator {
         ] {
             self.whole(text, ty, declared);
         }
+        let sum =
+            Var { text: "OpenSum(cell.row)".into(), ty: Ty::E(E::Dint), declared: "DINT".into(), writable: false, whole: false };
+        self.vars.push(sum);
     }
 
     fn whole(&mut self, text: &str, ty: Ty, declared: &str) {

@@ -34,7 +34,7 @@ impl Builder<'_> {
         span: Span,
     ) -> Option<Vec<Option<Given<'t>>>> {
         let mut given: Vec<Option<Given<'t>>> = vec![None; self.hir.pous[id].params.len()];
-        let mut fine = true;
+        let mut fine = self.check_forms(args);
         for (position, arg) in args.iter().enumerate() {
             let (slot, value) = match arg {
                 ast::Arg::Positional(e) => (self.positional(id, position, e.span, span), Some(Given::Value(e))),
@@ -62,20 +62,41 @@ impl Builder<'_> {
         fine.then_some(given)
     }
 
+    /// Positional arguments stand in front; false and a report if one stands behind a named one.
+    fn check_forms(&mut self, args: &[ast::Arg]) -> bool {
+        let named = args.iter().position(|a| !matches!(a, ast::Arg::Positional(_))).unwrap_or(args.len());
+        let late = args[named..].iter().find_map(|a| if let ast::Arg::Positional(e) = a { Some(e) } else { None });
+        if let Some(e) = late {
+            let help = "name this argument too: `name := value`";
+            self.report(Diag::new(Code::WrongArgumentCount, e.span, "a positional argument behind a named one").help(help));
+        }
+        late.is_none()
+    }
+
     fn positional(&mut self, id: PouId, position: usize, at: Span, call: Span) -> Option<usize> {
-        let count = self.hir.pous[id].params.len();
-        if position >= count {
+        let own = self.declared_enable(id);
+        let enables = |v: &VarId| own.en == Some(*v) || own.eno == Some(*v);
+        let params = &self.hir.pous[id].params;
+        let mut counted = params.iter().enumerate().filter(|(_, v)| !enables(v));
+        let slot = counted.nth(position).map(|(i, _)| i);
+        let count = params.iter().filter(|v| !enables(v)).count();
+        if slot.is_none() {
             let label = format!("`{}` has {count} parameters", self.hir.pous[id].name);
             self.report(Diag::new(Code::WrongArgumentCount, at, label).also(call, "the call"));
             return None;
         }
-        Some(position)
+        slot
     }
 
     /// Index of a parameter by its name; `output`: it is written with `=>`.
     fn named(&mut self, id: PouId, name: &ast::Name, output: bool) -> Option<usize> {
         let pou = &self.hir.pous[id];
-        let Some(slot) = pou.params.iter().position(|v| name.is(&pou.vars[*v].name)) else {
+        let slot = pou.params.iter().position(|v| name.is(&pou.vars[*v].name));
+        let slot = slot.or_else(|| {
+            let pin = self.vendor_pin(pou.instance?, name)?;
+            pou.params.iter().position(|v| pou.vars[*v].name == pin)
+        });
+        let Some(slot) = slot else {
             self.no_parameter(id, name);
             return None;
         };
@@ -90,10 +111,6 @@ impl Builder<'_> {
     }
 
     fn no_parameter(&mut self, id: PouId, name: &ast::Name) {
-        if name.is("EN") || name.is("ENO") {
-            let help = "test the condition with IF around the call";
-            return self.unsupported(name.span, "EN and ENO", help);
-        }
         let pou = &self.hir.pous[id];
         let known = pou.params.iter().map(|v| pou.vars[*v].name.clone()).collect();
         self.unknown(Code::UnknownParameter, name, known);
@@ -107,6 +124,7 @@ impl Builder<'_> {
             return self.bound_value(e, ty);
         }
         let o = self.operand(e, Some(ty));
+        let o = self.preset_of_timer(id, var, o);
         self.fit_for(o, ty, Some(note))
     }
 
@@ -127,6 +145,9 @@ impl Builder<'_> {
             return None;
         }
         let source = Expr { kind: ExprKind::Load(place.clone()), ty, span: target.span };
+        if self.splits_into(id, &source, place.ty) {
+            return Some(place);
+        }
         let fitted = self.fit_for(Operand::fixed(source), place.ty, Some(note));
         (fitted.ty != self.error).then_some(place)
     }

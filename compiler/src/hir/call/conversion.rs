@@ -9,7 +9,7 @@ use takt_image::types::Type;
 use takt_image::{Elementary, TypeId};
 use takt_stdlib::catalog::Intrinsic;
 use takt_stdlib::lookup::{converts, transfers_bits, truncates};
-use takt_stdlib::{ConversionType, natives::native_conversion};
+use takt_stdlib::{ConversionType, natives::native_conversion_in};
 
 /// Capacity of the text of a scalar.
 const TEXT_CAPACITY: u32 = 64;
@@ -95,14 +95,16 @@ impl Builder<'_> {
         if from == to && source == ty {
             return arg;
         }
-        if let Some(name) = native_conversion(from, to).filter(|_| !truncate) {
+        if let Some(name) = native_conversion_in(self.profile(span), from, to).filter(|_| !truncate) {
             return self.native(name, vec![arg], ty, span).expr;
         }
         match (from, to) {
             (ConversionType::Elementary(a), ConversionType::Elementary(b)) if truncate && a.is_real() && b.is_int() => {
                 self.intrinsic(Intrinsic::Trunc, vec![arg], ty, span).expr
             }
-            (ConversionType::Elementary(a), ConversionType::Elementary(b)) if loses(&arg, a, b) => {
+            (ConversionType::Elementary(a), ConversionType::Elementary(b))
+                if !self.unfolded && loses(&arg, a, b, self.profile(span)) =>
+            {
                 self.fold_error(FoldError::Overflow, span).expr
             }
             (ConversionType::Elementary(a), ConversionType::Elementary(b)) => {
@@ -128,14 +130,19 @@ impl Builder<'_> {
 }
 
 /// True for a constant number that the target can't hold; bits may be cut.
-fn loses(arg: &Expr, from: Elementary, to: Elementary) -> bool {
+fn loses(arg: &Expr, from: Elementary, to: Elementary, profile: Profile) -> bool {
     let ExprKind::Const(c) = &arg.kind else { return false };
     match (constant::int(c), constant::real(c)) {
         (Some(value), _) if from.is_int() && to.is_int() => constant::checked(to, value).is_err(),
-        (_, Some(value)) if to.is_int() => super::fold::real_to_int(value.round_ties_even(), to).is_err(),
+        (_, Some(value)) if to.is_int() => super::fold::real_to_int(rounded(value, profile), to).is_err(),
         (_, Some(value)) if to == Elementary::Real => value.is_finite() && (value as f32).is_infinite(),
         _ => false,
     }
+}
+
+/// To the nearest integer.
+fn rounded(value: f64, profile: Profile) -> f64 {
+    if profile.rounds_half_away() { value.round() } else { value.round_ties_even() }
 }
 
 /// How the compiler converts between scalars by itself (library reference §2.1, §2.6).
@@ -147,6 +154,7 @@ fn inline(profile: Profile, from: Elementary, to: Elementary) -> Conversion {
         _ if from.is_real() && to.is_real() => Conversion::Real,
         _ if from.is_real() && to.is_bit() && transfers => Conversion::Bits,
         _ if from.is_bit() && to.is_real() && from != Elementary::Bool && transfers => Conversion::Bits,
+        _ if from.is_real() && profile.rounds_half_away() => Conversion::RealToIntAway,
         _ if from.is_real() => Conversion::RealToInt,
         _ if to.is_real() => Conversion::IntToReal,
         _ if from.is_signed_int() && to.is_bit() && to.bits() > from.bits() && transfers => Conversion::ZeroExtend,

@@ -3,11 +3,14 @@
 
 mod arguments;
 mod conversion;
+mod dialect;
+mod enable;
 mod fold;
 mod standard;
 mod user;
 
 pub(super) use arguments::Given;
+pub(super) use enable::Enable;
 
 use super::builder::Builder;
 use super::convert::Operand;
@@ -21,8 +24,16 @@ use takt_image::TypeId;
 impl Builder<'_> {
     /// A call whose value is used.
     pub fn call(&mut self, callee: &ast::Expr, args: &[ast::Arg], span: Span, want: Option<TypeId>) -> Operand {
-        let o = self.call_any(callee, args, span, want);
-        if let ExprKind::Call { pou, .. } = &o.expr.kind
+        let o = match self.method_call(callee, args, span) {
+            Some(o) => o,
+            None => self.call_any(callee, args, span, want),
+        };
+        let called = match plain(&o.expr) {
+            ExprKind::Call { pou, .. } => Some(*pou),
+            ExprKind::CallMethod(c) => Some(c.method),
+            _ => None,
+        };
+        if let Some(pou) = &called
             && self.hir.pous[*pou].result.is_none()
         {
             let label = format!("`{}` has no result", self.hir.pous[*pou].name);
@@ -43,16 +54,38 @@ impl Builder<'_> {
         if let Some(o) = self.special_call(name, args, span) {
             return o;
         }
+        if let Some(o) = self.assert_call(name, args, span) {
+            return o;
+        }
         if !self.names_function(name) {
             self.not_a_function(name);
             return self.bad_call(args, span);
         }
         match self.pou(name) {
-            Some(id) => self.call_user(id, args, span),
+            Some(id) => self.call_with_enable(id, args, span),
             None => match takt_stdlib::lookup(&name.text) {
-                Some(found) => self.call_standard(found, name, args, span, want),
+                Some(found) => match self.enable(args, enable::Declared::default()) {
+                    None => self.call_standard(found, name, args, span, want),
+                    Some(enable) => {
+                        self.guards_next = true;
+                        let call = self.call_standard(found, name, &enable.rest, span, want);
+                        self.guarded(call, enable.en, enable.eno, enable::Declared::default())
+                    }
+                },
                 None => self.bad_call(args, span),
             },
+        }
+    }
+
+    fn call_with_enable(&mut self, id: PouId, args: &[ast::Arg], span: Span) -> Operand {
+        self.ensure_pou(id, span);
+        let declared = self.declared_enable(id);
+        match self.enable(args, declared) {
+            None => self.call_user(id, args, span),
+            Some(enable) => {
+                let call = self.call_user(id, &enable.rest, span);
+                self.guarded(call, enable.en, enable.eno, declared)
+            }
         }
     }
 
@@ -81,7 +114,7 @@ impl Builder<'_> {
             (None, None) => {
                 let functions = self.hir.pous.iter().filter(|p| p.kind == PouKind::Function).map(|p| p.name.clone());
                 let standard = takt_stdlib::catalog::functions().map(|f| f.name.to_owned());
-                let known = functions.chain(standard).collect();
+                let known = functions.chain(standard).chain(super::assert::names()).collect();
                 return self.unknown(Code::UnknownName, name, known);
             }
         };
@@ -98,7 +131,7 @@ impl Builder<'_> {
     }
 
     /// Looks at the arguments of a call that is wrong, so that what is wrong in them is said too.
-    fn bad_call(&mut self, args: &[ast::Arg], span: Span) -> Operand {
+    pub(super) fn bad_call(&mut self, args: &[ast::Arg], span: Span) -> Operand {
         for e in args.iter().filter_map(super::body::arg_expr) {
             self.operand(e, None);
         }
@@ -108,5 +141,13 @@ impl Builder<'_> {
     /// Remembers who calls whom.
     pub(super) fn note_call(&mut self, to: PouId, span: Span) {
         self.calls.push((self.scope.pou, to, span));
+    }
+}
+
+/// What is called, EN and ENO aside.
+fn plain(e: &Expr) -> &ExprKind {
+    match &e.kind {
+        ExprKind::Guarded(g) => &g.call.kind,
+        kind => kind,
     }
 }

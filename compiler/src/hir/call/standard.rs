@@ -27,10 +27,14 @@ impl Builder<'_> {
         span: Span,
         want: Option<TypeId>,
     ) -> Operand {
+        let guards = std::mem::take(&mut self.guards_next);
         let Some(exprs) = self.standard_arguments(found, name, args, span) else { return self.bad(span) };
         let hints: Vec<_> = (0..exprs.len()).map(|i| self.hint(found, i, want)).collect();
         let args: Vec<_> = exprs.into_iter().zip(hints).map(|(e, hint)| self.operand(e, hint)).collect();
-        self.apply(found, args, span, want)
+        self.unfolded = guards;
+        let call = self.apply(found, args, span, want);
+        self.unfolded = false;
+        call
     }
 
     /// What the parameter at a position wants, as far as the name says it.
@@ -94,13 +98,12 @@ impl Builder<'_> {
             Found::Conversion { .. } => formal.is("IN").then_some(0),
             Found::Function { function, .. } => {
                 let fixed = function.params.iter().position(|p| formal.is(p.name));
+                let fixed = fixed.or_else(|| edition_2(function, formal));
                 fixed.or_else(|| function.extensible.then(|| counted(function, formal)).flatten())
             }
         };
         if position.is_none() {
-            let eno = formal.is("EN") || formal.is("ENO");
             match found {
-                _ if eno => self.unsupported(formal.span, "EN and ENO", "test the condition with IF around the call"),
                 Found::Function { function, .. } => {
                     let known = function.params.iter().map(|p| p.name.to_owned()).collect();
                     self.unknown(Code::UnknownParameter, formal, known);
@@ -137,7 +140,8 @@ impl Builder<'_> {
             Lowering::Inline(i) if f.group().is_some() => operator_of(i, args.len()),
             _ => None,
         };
-        if let (Some(op), None) = (operator, fixed) {
+        let untyped = self.unfolded && args.iter().all(|a| a.flex != Flex::Fixed);
+        if let (Some(op), None, false) = (operator, fixed, untyped) {
             return self.apply_operator(op, args, span, want);
         }
         if let Some(shifted) = self.shift_of_integer(f, &args, span) {
@@ -270,7 +274,7 @@ impl Builder<'_> {
             all = if x.flex == Flex::Fixed || x.flex == y.flex { larger(self, x, y) } else { y };
         }
         let ty = self.group_type(group, &all, want);
-        let fine = self.in_group(f, group, ty);
+        let fine = self.in_group(f, group, ty) || self.shifts_integer(f, ty, span);
         if !fine {
             let label = format!("`{}` of {}", f.name, self.show(ty));
             self.report(Diag::new(Code::BadOperand, span, label).help(group_help(group)));
@@ -302,6 +306,13 @@ impl Builder<'_> {
             Some(real) => self.elem(real),
             None => o.expr.ty,
         }
+    }
+
+    /// The vendors shift integers as the bits that they are (library reference §5).
+    fn shifts_integer(&self, f: &Function, ty: TypeId, span: Span) -> bool {
+        use Intrinsic::{Rol, Ror, Shl, Shr};
+        let shift = matches!(f.lowering, Lowering::Inline(Shl | Shr | Rol | Ror));
+        shift && self.profile(span).is_vendor() && self.elementary(ty).is_some_and(Elementary::is_int)
     }
 
     fn in_group(&self, f: &Function, group: Generic, ty: TypeId) -> bool {
@@ -355,7 +366,7 @@ impl Builder<'_> {
                 Some(a) => self.complement(Operand::fixed(a), span, Some(ty)),
                 None => self.bad(span),
             },
-            Lowering::Inline(i) => self.intrinsic(i, args, ty, span),
+            Lowering::Inline(i) => self.in_profile(i, args, ty, span),
             Lowering::Native => {
                 let shared = f.params.iter().zip(&args).find(|(p, _)| matches!(p.ty, Pattern::T(_))).map(|(_, a)| a.ty);
                 let suffix = shared.map(|t| self.type_name(t)).unwrap_or_default();
@@ -369,7 +380,8 @@ impl Builder<'_> {
 
     /// A call of an inline function; of constants its value.
     pub fn intrinsic(&mut self, i: Intrinsic, args: Vec<Expr>, ty: TypeId, span: Span) -> Operand {
-        match self.fold_intrinsic(i, &args, ty) {
+        let folded = if self.unfolded { None } else { self.fold_intrinsic(i, &args, ty) };
+        match folded {
             Some(Ok(c)) => Operand::fixed(constant_expr(c, ty, span)),
             Some(Err(why)) => self.fold_error(why, span),
             None => Operand::fixed(Expr { kind: ExprKind::Intrinsic(i, args), ty, span }),
@@ -378,7 +390,9 @@ impl Builder<'_> {
 
     /// A call of a native; of constant scalars its value. More strings than a call has slots are joined in steps.
     pub(super) fn native(&mut self, name: String, mut args: Vec<Expr>, ty: TypeId, span: Span) -> Operand {
-        if let Some(Ok(c)) = self.fold_native(&name, &args, ty) {
+        if let Some(Ok(c)) = self.fold_native(&name, &args, ty)
+            && !self.unfolded
+        {
             return Operand::fixed(constant_expr(c, ty, span));
         }
         while args.len() > STRINGS_MAX {
@@ -392,6 +406,9 @@ impl Builder<'_> {
     /// A constant count below zero (§11).
     fn check_shift(&mut self, args: &[Expr]) {
         let [value, Expr { kind: ExprKind::Const(count), span, .. }] = args else { return };
+        if self.unfolded {
+            return;
+        }
         // Of two constants the folding reports it.
         if constant::int(count).is_some_and(|n| n < 0) && !matches!(value.kind, ExprKind::Const(_)) {
             let help = "shift the other way, or write ROL or ROR";
@@ -427,6 +444,12 @@ fn arity(found: Found) -> (usize, usize) {
         Found::Conversion { .. } => (1, 1),
         Found::Function { function: f, .. } => (f.params.len(), if f.extensible { INPUTS_MAX } else { f.params.len() }),
     }
+}
+
+/// Edition 2 calls the inputs of CONCAT_DATE_TOD IN1 and IN2.
+fn edition_2(f: &Function, formal: &ast::Name) -> Option<usize> {
+    let names = ["IN1", "IN2"];
+    names.iter().position(|name| formal.is(name)).filter(|_| f.name.starts_with("CONCAT_DATE_"))
 }
 
 /// Position of IN3, IN4, ... behind the parameters that are listed.

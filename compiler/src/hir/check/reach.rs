@@ -9,7 +9,7 @@ pub(super) fn mark(builder: &mut Builder) {
     let mut called: Vec<Vec<PouId>> = vec![Vec::new(); builder.hir.pous.len()];
     let programs = builder.hir.tasks.iter().flat_map(|t| &t.programs);
     let mut todo: Vec<PouId> = programs.map(|p| p.pou).collect();
-    for (from, to, _) in &builder.calls {
+    for (from, to, _) in builder.calls.iter().chain(&builder.objects.dynamic_calls) {
         match from {
             Some(from) => called[from.index()].push(*to),
             None => todo.push(*to),

@@ -9,17 +9,16 @@ use takt_image::{Elementary, TypeId};
 impl Builder<'_> {
     /// A section of a unit.
     pub fn check_section(&mut self, pou: &ast::Pou, section: &ast::VarSection) {
-        let function = pou.kind == PouKind::Function;
+        let function = matches!(pou.kind, PouKind::Function | PouKind::Method);
+        self.check_object_section(pou, section);
         if section.kind == SectionKind::Global {
             let help = "write VAR_GLOBAL outside of the unit, and VAR_EXTERNAL inside";
             self.report(Diag::new(Code::SectionNotAllowed, section.span, "VAR_GLOBAL in a unit").help(help));
         }
         let kept = matches!(section.kind, SectionKind::Var | SectionKind::Input | SectionKind::Output);
-        if section.retain.is_some() && (function || !kept) {
+        if (section.retain.is_some() || section.persistent) && (function || !kept) {
             let help = "RETAIN belongs to VAR, VAR_INPUT and VAR_OUTPUT of function blocks and programs, and to VAR_GLOBAL";
             self.report(Diag::new(Code::SectionNotAllowed, section.span, "nothing here is kept between calls").help(help));
-        } else {
-            self.check_retain_kept(section);
         }
         if section.constant && matches!(section.kind, SectionKind::InOut | SectionKind::Output) {
             self.error(Code::SectionNotAllowed, section.span, "outputs and in-outs can't be CONSTANT");
@@ -29,15 +28,19 @@ impl Builder<'_> {
     /// A declaration in a section of a unit.
     pub fn check_decl(&mut self, pou: &ast::Pou, section: &ast::VarSection, d: &ast::VarDecl, ty: TypeId) {
         self.check_edge(pou, section, d, ty);
+        self.check_relative(d);
         self.check_address(pou, section, d);
         self.check_instance(pou, section, ty, d.ty.span);
-        let output = matches!(section.kind, SectionKind::Input | SectionKind::Output);
-        let library = self.in_library(d.span);
-        for name in d.names.iter().filter(|n| output && (n.is("EN") || n.is("ENO")) && !library) {
-            self.unsupported(name.span, "EN and ENO", "use another name and test it in the body");
-        }
         if let Some(init) = d.init.as_ref().filter(|_| section.kind == SectionKind::InOut) {
             self.error(Code::BadInitializer, init.span(), "a VAR_IN_OUT has no value of its own");
+        }
+    }
+
+    /// `%B2` is a place in a structure, not of a variable.
+    pub fn check_relative(&mut self, d: &ast::VarDecl) {
+        if let Some(at) = &d.relative {
+            let help = "write the area: %IB2, %QB2 or %MB2";
+            self.report(Diag::new(Code::BadAddress, at.span, "a relative address outside of a structure").help(help));
         }
     }
 
@@ -45,7 +48,7 @@ impl Builder<'_> {
         if d.edge.is_none() {
             return;
         }
-        if section.kind != SectionKind::Input || pou.kind == PouKind::Function {
+        if section.kind != SectionKind::Input || matches!(pou.kind, PouKind::Function | PouKind::Method) {
             self.error(Code::SectionNotAllowed, d.span, "an edge is detected at inputs of function blocks and programs");
         } else if ty != self.error && self.elementary(ty) != Some(Elementary::Bool) {
             let label = format!("{}, BOOL wanted", self.show(ty));
@@ -55,8 +58,9 @@ impl Builder<'_> {
 
     fn check_address(&mut self, pou: &ast::Pou, section: &ast::VarSection, d: &ast::VarDecl) {
         let Some(at) = &d.at else { return };
-        if pou.kind != PouKind::Program || section.kind != SectionKind::Var {
-            let help = "locate variables in VAR of a program or in VAR_GLOBAL";
+        let open = at.path.is_empty() && matches!(pou.kind, PouKind::FunctionBlock | PouKind::Class);
+        if !open && pou.kind != PouKind::Program || section.kind != SectionKind::Var {
+            let help = "locate variables in VAR of a program or in VAR_GLOBAL; a block leaves the address open: AT %Q*";
             self.report(Diag::new(Code::SectionNotAllowed, at.span, "an address").help(help));
         }
     }
@@ -65,7 +69,7 @@ impl Builder<'_> {
     fn check_instance(&mut self, pou: &ast::Pou, section: &ast::VarSection, ty: TypeId, span: Span) {
         let lost = match section.kind {
             SectionKind::Temp => true,
-            SectionKind::Var | SectionKind::Output => pou.kind == PouKind::Function,
+            SectionKind::Var | SectionKind::Output => matches!(pou.kind, PouKind::Function | PouKind::Method),
             _ => false,
         };
         if lost && self.holds_instance(ty) {

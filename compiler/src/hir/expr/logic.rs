@@ -1,6 +1,7 @@
 //! Short circuit (§5.4): AND and OR of BOOL skip the right side when it calls nobody and may trap, so that skipping can only remove
 //! faults.
 
+use crate::hir::assert::PREFIX;
 use crate::hir::builder::Builder;
 use crate::hir::constant;
 use crate::hir::convert::Operand;
@@ -31,7 +32,17 @@ fn parts(e: &Expr) -> Vec<&Expr> {
         ExprKind::Neg(a) | ExprKind::Not(a) | ExprKind::Convert(_, a) => vec![a],
         ExprKind::Binary(_, a, b) => vec![a, b],
         ExprKind::Call { args, .. } => args.iter().filter_map(|a| if let Arg::Value(e) = a { Some(e) } else { None }).collect(),
+        ExprKind::CallMethod(c) => {
+            let args = c.args.iter().filter_map(|a| if let Arg::Value(e) = a { Some(e) } else { None });
+            match &c.receiver {
+                Receiver::Reference(e) => args.chain([e]).collect(),
+                Receiver::Place(p) => args.chain(indices(p)).collect(),
+            }
+        }
+        ExprKind::AddressOf(place) => indices(place),
+        ExprKind::OfClass(a, _) => vec![a],
         ExprKind::Intrinsic(_, args) | ExprKind::Native { args, .. } => args.iter().collect(),
+        ExprKind::Guarded(g) => g.en.iter().chain([&g.call]).collect(),
     }
 }
 
@@ -48,9 +59,13 @@ fn step_indices(step: &Step) -> Vec<&Expr> {
     }
 }
 
-/// True if a user's unit is called.
+/// True if a user's unit is called, or an assertion, which counts.
 fn calls(e: &Expr) -> bool {
-    matches!(e.kind, ExprKind::Call { .. }) || parts(e).into_iter().any(calls)
+    let here = match &e.kind {
+        ExprKind::Native { name, .. } => name.starts_with(PREFIX),
+        kind => matches!(kind, ExprKind::Call { .. } | ExprKind::CallMethod(_) | ExprKind::Guarded(_)),
+    };
+    here || parts(e).into_iter().any(calls)
 }
 
 /// True if evaluating it may stop the program.

@@ -25,6 +25,16 @@ impl Builder<'_> {
 
     fn operand_kind(&mut self, e: &ast::Expr, want: Option<TypeId>) -> Operand {
         match &e.kind {
+            ast::ExprKind::Name(_) | ast::ExprKind::Member(..) if self.may_be_property(e) => match self.property_read(e) {
+                Some(o) => o,
+                None => self.plain_operand(e, want),
+            },
+            _ => self.plain_operand(e, want),
+        }
+    }
+
+    fn plain_operand(&mut self, e: &ast::Expr, want: Option<TypeId>) -> Operand {
+        match &e.kind {
             ast::ExprKind::Literal(l) => self.literal(l, e.span),
             ast::ExprKind::Name(n) => self.name(n, want),
             ast::ExprKind::Enumerator { ty, value } => self.enumerator(ty, value, e.span),

@@ -24,25 +24,31 @@ fn is_logic(op: BinaryOp) -> bool {
 impl Builder<'_> {
     /// `a op b` as written between its operands.
     pub(super) fn binary(&mut self, op: BinaryOp, l: &ast::Expr, r: &ast::Expr, span: Span, want: Option<TypeId>) -> Operand {
-        let hint = if is_comparison(op) { None } else { want };
-        let waits = |b: &Self, e: &ast::Expr| b.is_enumerator(e) || matches!(e.kind, ast::ExprKind::Null);
-        let (a, b) = if waits(self, l) && !waits(self, r) {
-            let b = self.operand(r, hint);
-            (self.operand(l, Some(b.expr.ty)), b)
-        } else {
-            let a = self.operand(l, hint);
-            let beside = if a.flex == Flex::Fixed { Some(a.expr.ty) } else { hint };
-            let b = self.operand(r, beside);
-            (a, b)
-        };
+        let (a, b) = self.beside(l, r, if is_comparison(op) { None } else { want });
         let o = self.combine(op, a, b, span, want);
         self.short_circuit(o)
+    }
+
+    /// Two operands, each of which may say what the other means.
+    pub fn beside(&mut self, l: &ast::Expr, r: &ast::Expr, hint: Option<TypeId>) -> (Operand, Operand) {
+        let waits = |b: &Self, e: &ast::Expr| b.is_enumerator(e) || matches!(e.kind, ast::ExprKind::Null);
+        if waits(self, l) && !waits(self, r) {
+            let b = self.operand(r, hint);
+            return (self.operand(l, Some(b.expr.ty)), b);
+        }
+        let a = self.operand(l, hint);
+        let beside = if a.flex == Flex::Fixed { Some(a.expr.ty) } else { hint };
+        let b = self.operand(r, beside);
+        (a, b)
     }
 
     /// `a op b` of two typed operands.
     pub fn combine(&mut self, op: BinaryOp, a: Operand, b: Operand, span: Span, want: Option<TypeId>) -> Operand {
         if self.is_bad(&a) || self.is_bad(&b) {
             return self.bad(span);
+        }
+        if let Some(o) = self.compare_references(op, &a, &b, span) {
+            return o;
         }
         let same_enum = is_comparison(op) && a.expr.ty == b.expr.ty;
         let (a, b) = if same_enum { (a, b) } else { (self.decay(a), self.decay(b)) };
@@ -132,6 +138,7 @@ impl Builder<'_> {
         }
         let ty = if is_comparison(op) { self.bool() } else { a.ty };
         if let (ExprKind::Const(ca), ExprKind::Const(cb)) = (&a.kind, &b.kind)
+            && !self.unfolded
             && let Some(folded) = self.fold_binary(op, ca, cb, a.ty)
         {
             return match folded {
@@ -139,7 +146,7 @@ impl Builder<'_> {
                 Err(why) => self.fold_error(why, span),
             };
         }
-        if self.divides_by_zero(op, &b) {
+        if !self.unfolded && self.divides_by_zero(op, &b) {
             return self.fold_error(FoldError::DivisionByZero, span);
         }
         Operand::fixed(Expr { kind: ExprKind::Binary(op, Box::new(a), Box::new(b)), ty, span })

@@ -54,6 +54,25 @@ fn a_direct_address_triggers_a_task() {
 }
 
 #[test]
+fn access_paths_are_named_as_missing() {
+    let path = "PROGRAM b : Bg; END_RESOURCE VAR_ACCESS a : r.%IX1.1 : BOOL READ_ONLY; END_VAR RESOURCE q ON PLC";
+    assert!(messages(path).contains("P0012"), "{}", messages(path));
+}
+
+#[test]
+fn broken_entries_of_var_config_do_not_take_the_rest_along() {
+    for text in
+        ["r.b. AT %QX0.0 : BOOL;", "r.b.x[ : INT;", "r.b.x INT := 3;", ": INT;", "r.b.x : INT := ;", "x", "r.b.x AT : INT;"]
+    {
+        let built = build(&format!(
+            "{P} CONFIGURATION c PROGRAM b : Bg; VAR_CONFIG {text} END_VAR END_CONFIGURATION FUNCTION f : INT f := TRUE; END_FUNCTION"
+        ));
+        let codes = built.codes();
+        assert!(codes.contains("P0010") && codes.contains("P2001"), "{text}: {codes}");
+    }
+}
+
+#[test]
 fn what_is_wrong_with_tasks() {
     for (inner, want) in [
         ("TASK t (PRIORITY := 1); PROGRAM b WITH t : Bg;", "P4003 4:6"),

@@ -42,7 +42,7 @@ fn what_an_address_takes() {
             ("PROGRAM p VAR a AT %QX0.0 : ARRAY [0..7] OF BOOL; END_VAR END_PROGRAM", "P3011 1:20"),
             ("PROGRAM p VAR a AT %QB0 : CHAR; b AT %QW4 : (x, y); c AT %QW8 : INT (0..5); END_VAR END_PROGRAM", ""),
             ("PROGRAM p VAR a AT %QX0.8 : BOOL; END_VAR END_PROGRAM", "P0008 1:20"),
-            ("PROGRAM p VAR a AT %I* : BOOL; END_VAR END_PROGRAM", "P0012 1:20"),
+            ("PROGRAM p VAR a AT %I* : BOOL; END_VAR END_PROGRAM", "P3080 1:15"),
             ("PROGRAM p VAR a AT %QB65536 : BYTE; END_VAR END_PROGRAM", "P2016 1:20"),
             ("PROGRAM p VAR a AT %QB65535 : BYTE; b AT %QD16383 : DWORD; END_VAR END_PROGRAM", ""),
             ("PROGRAM p VAR a AT %QB65535 : ARRAY [0..1] OF BYTE; END_VAR END_PROGRAM", "P2016 1:20"),

@@ -1,6 +1,7 @@
 //! Tests of the checker: a case is a text and the messages that it gives, `P2007 3:6`, or none.
 //! Texts are parsed behind the standard library, as in a build.
 
+mod asserts;
 mod calls;
 mod codes;
 mod configuration;

@@ -88,6 +88,9 @@ fn seeds() -> Vec<String> {
         PROGRAM A VAR_INPUT i : INT; END_VAR VAR_OUTPUT o : DINT; END_VAR VAR x : P := (a := [N((s := 'q'))]); END_VAR o := i; END_PROGRAM \
         CONFIGURATION c VAR_GLOBAL z : DINT; END_VAR RESOURCE r ON q TASK t (SINGLE := g, INTERVAL := T#1s, PRIORITY := 1); \
         PROGRAM p WITH t : A (i := N, o => z); END_RESOURCE END_CONFIGURATION".to_owned());
+    let test =
+        "%IX0.0 := ASSERT_EQ(Red, light, 'm'); ASSERT_NEAR(EXPECTED := r, ACTUAL := 1, TOLERANCE := 0.5); ASSERT_NE(s, 'x', s8);";
+    seeds.push(format!("{TYPES} {{test 'a', scans := 3}} {}", program("", VARS, test)));
     seeds
 }
 

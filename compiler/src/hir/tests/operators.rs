@@ -193,7 +193,7 @@ fn formal_names_of_standard_functions() {
             ("SIN(IN := r)", "REAL"),
             ("SIN(X := r)", "P1006"),
             ("SIN(IN := r, IN := r)", "P2013"),
-            ("ADD(EN := b1, IN1 := 1, IN2 := 2)", "P0012"),
+            ("ADD(ENO := b1, IN1 := 1, IN2 := 2)", "P1006"),
             ("SIN(OUT => r)", "P1006"),
         ],
     );

@@ -4,13 +4,14 @@ use super::TypeUse;
 use crate::hir::builder::Builder;
 use crate::hir::constant;
 use crate::hir::model::*;
+use crate::hir::symbols::Unit;
 use crate::syntax::ast;
 use takt_base::{Code, Diag, Span};
 use takt_image::TypeId;
 use takt_image::types::{Dim, Type};
 
 /// Most dimensions of an array.
-const DIMENSIONS_MAX: usize = 8;
+pub(super) const DIMENSIONS_MAX: usize = 8;
 
 impl Builder<'_> {
     /// `ARRAY [low..high, ..] OF element`.
@@ -41,6 +42,9 @@ impl Builder<'_> {
     }
 
     fn dim(&mut self, low: &ast::Expr, high: &ast::Expr) -> Option<Dim> {
+        if let Some(all) = self.enum_range(low, high) {
+            return Some(all);
+        }
         let lo = self.bound(low);
         let hi = self.bound(high);
         let (lo, hi) = (lo?, hi?);
@@ -55,6 +59,20 @@ impl Builder<'_> {
             return None;
         }
         Some(Dim { low: lo, high: hi })
+    }
+
+    /// All values of an enumeration whose name stands for the bounds (vendor).
+    fn enum_range(&mut self, low: &ast::Expr, high: &ast::Expr) -> Option<Dim> {
+        let ast::ExprKind::Name(n) = &low.kind else { return None };
+        let known = matches!(self.symbols.units.get(&n.key()), Some((Unit::Type(_), _)));
+        if low.span != high.span || !known {
+            return None;
+        }
+        let ty = self.named_type(n).ty;
+        let Type::Enum { values, .. } = self.ty(ty) else { return None };
+        let numbers = || values.iter().map(|v| v.1);
+        let (low, high) = (i32::try_from(numbers().min()?).ok()?, i32::try_from(numbers().max()?).ok()?);
+        Some(Dim { low, high })
     }
 
     fn bound(&mut self, e: &ast::Expr) -> Option<i32> {

@@ -2,6 +2,8 @@
 
 mod array;
 mod enumeration;
+pub(super) mod layout;
+mod open;
 pub(super) mod structure;
 
 use super::builder::Builder;
@@ -52,6 +54,11 @@ impl Builder<'_> {
                 self.structure(name, members, t.span, None)
             }
             ast::TypeRefKind::Pointer { kind, target } => self.pointer_type(*kind, target),
+            ast::TypeRefKind::Layout(layout) => {
+                let name = self.sources.text(t.span).split_whitespace().collect::<Vec<_>>().join(" ");
+                self.placed_structure(name, layout, t.span)
+            }
+            ast::TypeRefKind::OpenArray { .. } => self.misplaced_open(t.span),
             ast::TypeRefKind::Error => self.bad_type(),
         }
     }
@@ -62,9 +69,14 @@ impl Builder<'_> {
             let ty = self.elem(e);
             return self.plain(ty);
         }
-        match self.symbols.units.get(&name.key()) {
-            Some(&(Unit::Type(index), _)) => self.declared_type(index, name.span),
-            Some(&(Unit::Pou(id), _)) => self.instance_type(id, name.span),
+        if name.is("BIT") && !self.symbols.units.contains_key(&name.key()) && self.profile(name.span).is_codesys() {
+            let ty = self.bool();
+            return self.plain(ty);
+        }
+        match self.named_unit(name) {
+            Some(Unit::Type(index)) => self.declared_type(index, name.span),
+            Some(Unit::Pou(id)) => self.instance_type(id, name.span),
+            None if self.is_vendor_block(name) => self.bad_type(),
             None => {
                 let known = self.unit_names().into_iter().chain(Elementary::ALL.iter().map(|e| e.name().to_owned())).collect();
                 self.unknown(Code::UnknownType, name, known);
@@ -75,12 +87,17 @@ impl Builder<'_> {
 
     fn instance_type(&mut self, id: PouId, at: Span) -> TypeUse {
         let pou = &self.hir.pous[id];
-        if pou.kind != PouKind::FunctionBlock {
+        if pou.kind == PouKind::Interface {
+            return self.interface_type(id, at);
+        }
+        let tested = pou.kind == PouKind::Program && self.in_test();
+        if !tested && !matches!(pou.kind, PouKind::FunctionBlock | PouKind::Class) {
             let what = if pou.kind == PouKind::Program { "a PROGRAM" } else { "a FUNCTION" };
             let help = "only function blocks have instances; programs are listed in the CONFIGURATION";
             self.report(Diag::new(Code::UnknownType, at, what).message("this is not a type").help(help));
             return self.bad_type();
         }
+        self.check_instantiable(id, at);
         if !self.ensure_pou(id, at) {
             let label = format!("`{}` would contain itself", self.hir.pous[id].name);
             self.error(Code::RecursiveType, at, label);
@@ -117,6 +134,9 @@ impl Builder<'_> {
         let body = match &decl.body {
             ast::TypeBody::Ref(ast::TypeRef { kind: ast::TypeRefKind::Subrange { base, low, high }, span }) => {
                 self.subrange(Some(name), base, low, high, *span)
+            }
+            ast::TypeBody::Ref(ast::TypeRef { kind: ast::TypeRefKind::Layout(layout), .. }) => {
+                self.placed_structure(name.clone(), layout, decl.name.span)
             }
             ast::TypeBody::Ref(t) => self.type_ref(t),
             ast::TypeBody::Enum(e) => self.enumeration(name.clone(), e),

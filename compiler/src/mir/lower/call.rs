@@ -3,7 +3,7 @@
 //! What has no address of its own (a bit of the process image, a part of a word) is lent through a place on the frame and written
 //! back after the call.
 
-use super::builder::behind;
+use super::builder::{behind, fixed};
 use super::expr::{Text, Value};
 use super::native::slot_of;
 use super::place::{Loc, field};
@@ -14,10 +14,11 @@ use super::walk::argument_calls;
 use crate::hir::model::*;
 use crate::mir::model::*;
 use takt_base::Span;
+use takt_image::image::Place as ImagePlace;
 use takt_image::{Elementary, NativeImport, NativeKind, Scalar, TypeId};
 
 /// Something to copy when a call is over.
-struct WriteBack {
+pub(super) struct WriteBack {
     from: Addr,
     from_ty: TypeId,
     to: Loc,
@@ -26,7 +27,7 @@ struct WriteBack {
 }
 
 /// An argument as it is handed over; the type tells how a scalar is extended for a native.
-type Given = (Value, Option<Elementary>);
+pub(super) type Given = (Value, Option<Elementary>);
 
 impl Unit<'_, '_> {
     /// Calls a function; `None` if it has no result.
@@ -58,7 +59,7 @@ impl Unit<'_, '_> {
     }
 
     /// Register of a scalar result, or the frame place of any other.
-    fn result_place(&mut self, result: Option<TypeId>) -> (Option<Local>, Option<Local>, Option<Value>) {
+    pub(super) fn result_place(&mut self, result: Option<TypeId>) -> (Option<Local>, Option<Local>, Option<Value>) {
         let Some(ty) = result else { return (None, None, None) };
         if let Shape::Scalar(e) = self.shape(ty) {
             let dst = self.f.local(e.scalar());
@@ -90,7 +91,7 @@ impl Unit<'_, '_> {
         }
     }
 
-    fn argument(&mut self, arg: &Arg, param: &Var, before_call: bool, back: &mut Vec<WriteBack>) -> Given {
+    pub(super) fn argument(&mut self, arg: &Arg, param: &Var, before_call: bool, back: &mut Vec<WriteBack>) -> Given {
         match arg {
             Arg::Value(e) => {
                 let value = self.operand(e);
@@ -98,7 +99,7 @@ impl Unit<'_, '_> {
                 (self.fitted(kept, param.ty), self.hir.elementary(param.ty))
             }
             Arg::Reference(place) => {
-                let addr = self.lend(place, back);
+                let addr = if self.is_open(param.ty) { self.describe(place) } else { self.lend(place, back) };
                 (self.at_address(addr, param.ty), None)
             }
             Arg::Output { target, negated } => {
@@ -147,7 +148,7 @@ impl Unit<'_, '_> {
         from
     }
 
-    fn write_back(&mut self, back: Vec<WriteBack>) {
+    pub(super) fn write_back(&mut self, back: Vec<WriteBack>) {
         for w in back {
             self.copy_out(w.from, w.from_ty, w.to, w.to_ty, w.negated);
         }
@@ -175,7 +176,9 @@ impl Unit<'_, '_> {
             self.block_input(pou, this, &pou.vars[*var], arg, &mut back);
         }
         let address = self.f.address(this);
+        let bodies = self.bodies(instance, id);
         match self.program.functions[id] {
+            _ if bodies.len() > 1 => self.call_chosen(address, &bodies, None, &[address]),
             Some(function) => self.f.emit(Op::Call { dst: None, function, args: vec![address] }),
             None => self.call_native_block(pou, address),
         }
@@ -197,7 +200,7 @@ impl Unit<'_, '_> {
                 self.assign(Loc::Memory(pin), var.ty, value);
             }
             Arg::Reference(place) => {
-                let addr = self.lend(place, back);
+                let addr = if self.is_open(var.ty) { self.describe(place) } else { self.lend(place, back) };
                 let offset = self.f.address(addr);
                 self.f.store(pin, offset);
             }
@@ -229,10 +232,13 @@ impl Unit<'_, '_> {
             let value = self.operand(value);
             self.assign(to, var.ty, value);
         }
+        let mirrors: Vec<_> = self.hir.mirrors.iter().filter(|m| m.is_seen_by(instance)).collect();
+        mirrors.iter().for_each(|m| self.copy_mirror(m, this, true));
         let args = vec![self.f.address(this)];
         if let Some(function) = self.program.functions[instance.pou] {
             self.f.emit(Op::Call { dst: None, function, args });
         }
+        mirrors.iter().filter(|m| !m.input).for_each(|m| self.copy_mirror(m, this, false));
         for (var, target) in &instance.outputs {
             self.at_line(target.span);
             let var = &pou.vars[*var];
@@ -247,6 +253,27 @@ impl Unit<'_, '_> {
             }
         }
         self.f.end(End::Return(None));
+    }
+
+    /// From the process image into a field of an instance, or back.
+    fn copy_mirror(&mut self, m: &Mirror, this: Addr, inward: bool) {
+        let field = match &m.root {
+            Root::Program(..) => behind(this, m.offset),
+            Root::Global(g) => match self.program.data.globals[*g] {
+                ImagePlace::Byte(offset) => fixed(offset + m.offset),
+                ImagePlace::Bit(..) => return,
+            },
+        };
+        let (field, image) = (Loc::Memory(field), super::place::image_loc(m.place));
+        let (to, from) = if inward { (field, image) } else { (image, field) };
+        match (self.shape(m.ty), to, from) {
+            (Shape::Scalar(_), ..) => {
+                let value = self.load(from, m.ty);
+                self.store(to, value);
+            }
+            (shape, Loc::Memory(to), Loc::Memory(from)) => self.copy_aggregate(to, shape, from, shape, m.ty),
+            _ => {}
+        }
     }
 
     fn program_pin(&self, pou: &Pou, this: Addr, var: &Var) -> Loc {

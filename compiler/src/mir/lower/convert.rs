@@ -28,6 +28,10 @@ impl Unit<'_, '_> {
             }
             Conversion::IntToReal => self.integer_to_float(x, from, target.scalar()),
             Conversion::RealToInt => self.float_to_integer(x, target),
+            Conversion::RealToIntAway => {
+                let nearest = self.nearest_away(x, from);
+                self.truncate(nearest, target)
+            }
             Conversion::Real if from == target => x,
             Conversion::Real => self.f.convert(Convert::Float, target.scalar(), x),
             Conversion::Bits => self.f.convert(Convert::Bits, target.scalar(), x),
@@ -43,6 +47,21 @@ impl Unit<'_, '_> {
         let resized = self.f.resize(x, to.scalar(), from.is_signed_storage());
         let may_be_more = to == Elementary::Bool && from != Elementary::Bool;
         if may_be_more { self.f.binary_const(BinaryOp::And, resized, 1) } else { resized }
+    }
+
+    /// Nearest whole number, halves away from zero. Adding a half first would be wrong just below 0.5.
+    pub fn nearest_away(&mut self, x: Local, e: Elementary) -> Local {
+        let s = e.scalar();
+        let whole = self.f.unary(UnaryOp::FTrunc, x);
+        let rest = self.f.binary(BinaryOp::FSub, x, whole);
+        let distance = self.f.unary(UnaryOp::FAbs, rest);
+        let (half, zero) = (self.f.float(s, 0.5), self.f.zero(s));
+        let (one, minus_one) = (self.f.float(s, 1.0), self.f.float(s, -1.0));
+        let negative = self.f.compare(Compare::FLt, x, zero);
+        let step = self.f.select(negative, minus_one, one);
+        let next = self.f.binary(BinaryOp::FAdd, whole, step);
+        let up = self.f.compare(Compare::FGe, distance, half);
+        self.f.select(up, next, whole)
     }
 
     fn non_zero(&mut self, x: Local, from: Elementary) -> Local {

@@ -195,7 +195,7 @@ impl Unit<'_, '_> {
             Home::Memory(addr) if addr.base == AddrBase::Frame => !calls,
             Home::Memory(_) if calls && self.program.referred => false,
             Home::Memory(_) => !(calls && self.pou.is_none_or(|p| self.program.recursive[p])),
-            Home::Image(_) => false,
+            Home::Image(_) | Home::Open(_) => false,
         };
         (own && !changed && private).then_some(var)
     }

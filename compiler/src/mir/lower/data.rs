@@ -29,7 +29,7 @@ pub struct Data {
 }
 
 /// Memory map without data: the process image lies in front of it, so its offsets don't depend on the data.
-fn process_image(hir: &Hir) -> Option<MemoryMap> {
+pub fn process_image(hir: &Hir) -> Option<MemoryMap> {
     let [i, q, m] = hir.image_bytes;
     MemoryMap::new(i, q, m, 0, 0)
 }
@@ -73,6 +73,10 @@ impl Data {
         for (program, offset) in programs {
             let pou = &hir.pous[program.pou];
             let Some(ty) = pou.instance else { continue };
+            if let Some(init) = &program.init {
+                constant(&hir.types, globals, ty, init, &mut |at, bytes| chunks.put(offset + at, bytes));
+                continue;
+            }
             for var in pou.vars.iter() {
                 if let Some(field) = field_offset(hir, ty, var) {
                     constant(&hir.types, globals, var.ty, &var.init, &mut |at, bytes| chunks.put(offset + field + at, bytes));
@@ -159,7 +163,8 @@ fn image_contents(hir: &Hir, map: &MemoryMap, globals: &Globals, chunks: &mut Ch
         Storage::Image(place) => Some((place, v.ty, &v.init)),
         _ => None,
     });
-    for (place, ty, init) in located.chain(in_programs) {
+    let mirrors = hir.mirrors.iter().map(|m| (m.place, m.ty, &m.init));
+    for (place, ty, init) in located.chain(in_programs).chain(mirrors) {
         constant(&hir.types, globals, ty, init, &mut |at, value| match place {
             ImagePlace::Byte(offset) => {
                 value.iter().enumerate().for_each(|(i, b)| _ = bytes.insert(offset + at + i as u32, *b));
@@ -181,7 +186,7 @@ pub fn symbols(hir: &Hir, data: &Data) -> Vec<Symbol> {
         ty: g.ty,
         place: *place,
         constant: g.constant,
-        retain: g.retain,
+        retain: g.keep.is_kept(),
     });
     let programs = hir.tasks.iter().zip(&data.instances).flat_map(|(t, offsets)| t.programs.iter().zip(offsets));
     globals.chain(programs.flat_map(|(p, offset)| program_symbols(hir, p, *offset))).collect()

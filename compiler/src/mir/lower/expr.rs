@@ -70,6 +70,19 @@ impl Unit<'_, '_> {
                 Some(Value::Scalar(l)) => l,
                 _ => unreachable!("a function with a scalar result"),
             },
+            ExprKind::Guarded(g) => match self.guarded(g) {
+                Value::Scalar(l) => l,
+                _ => unreachable!("a call with a scalar result"),
+            },
+            ExprKind::CallMethod(c) => match self.call_method(c, e.span) {
+                Some(Value::Scalar(l)) => l,
+                _ => unreachable!("a method with a scalar result"),
+            },
+            ExprKind::AddressOf(p) => {
+                let addr = self.memory(p, Purpose::Address);
+                self.f.address(addr)
+            }
+            ExprKind::OfClass(a, classes) => self.of_class(a, classes),
             ExprKind::Intrinsic(i, args) => match self.intrinsic(*i, args, e.ty) {
                 Value::Scalar(l) => l,
                 _ => unreachable!("an intrinsic with a scalar result"),
@@ -87,8 +100,29 @@ impl Unit<'_, '_> {
         }
         let loc = self.place_for(p, Purpose::Read);
         let value = self.load(loc, p.ty);
-        let any_byte = p.derefs() && self.hir.elementary(p.ty) == Some(Elementary::Bool);
+        let any_byte =
+            self.hir.elementary(p.ty) == Some(Elementary::Bool) && !matches!(loc, Loc::Bit(..)) && self.shares_bytes(p);
         if any_byte { self.f.compare_const(Compare::Ne, value, 0) } else { value }
+    }
+
+    /// True if something else may have written the bytes of the place.
+    fn shares_bytes(&self, p: &Place) -> bool {
+        let mut ty = match p.base {
+            Base::Var(v) => self.var(v).ty,
+            Base::Global(g) => self.hir.globals[g].ty,
+            Base::This => self.this_type(),
+            Base::Image(_) | Base::Value(_) => return p.derefs(),
+        };
+        for step in &p.path {
+            ty = match (step, self.hir.types.get(ty)) {
+                (Step::Deref, _) => return true,
+                (Step::Field(_), _) if self.hir.types.overlaps(ty) => return true,
+                (Step::Field(i), Type::Struct(r) | Type::Instance(r)) => r.fields[*i as usize].ty,
+                (Step::Index(_), Type::Array { element, .. } | Type::Open { element, .. }) => *element,
+                _ => return false,
+            };
+        }
+        false
     }
 
     /// REF and ADR.
@@ -175,6 +209,10 @@ impl Unit<'_, '_> {
             ExprKind::Const(c) => here(self.pooled(e.ty, c, e.span)),
             ExprKind::Load(p) => here(self.memory(p, Purpose::Read)),
             ExprKind::Convert(Conversion::String, a) => self.string_of(a, capacity, unit),
+            ExprKind::Guarded(g) => match self.guarded(g) {
+                Value::Text(t) => t,
+                _ => unreachable!("a call with a string result"),
+            },
             ExprKind::Intrinsic(i, args) => match self.intrinsic(*i, args, e.ty) {
                 Value::Text(t) => t,
                 _ => unreachable!("an intrinsic with a string result"),
@@ -182,6 +220,10 @@ impl Unit<'_, '_> {
             ExprKind::Native { name, args } => match self.native(name, args, e.ty) {
                 Value::Text(t) => t,
                 _ => unreachable!("a native with a string result"),
+            },
+            ExprKind::CallMethod(c) => match self.call_method(c, e.span) {
+                Some(Value::Text(t)) => t,
+                _ => unreachable!("a method with a string result"),
             },
             ExprKind::Call { pou, args } => match self.call(*pou, args, e.span) {
                 Some(Value::Text(t)) => t,
@@ -239,9 +281,17 @@ impl Unit<'_, '_> {
             ExprKind::Const(c) => self.pooled(e.ty, c, e.span),
             ExprKind::Load(p) => self.memory(p, Purpose::Read),
             ExprKind::Convert(_, a) => self.bytes(a),
+            ExprKind::Guarded(g) => match self.guarded(g) {
+                Value::Bytes(a) => a,
+                _ => unreachable!("a call with an aggregate result"),
+            },
             ExprKind::Intrinsic(i, args) => match self.intrinsic(*i, args, e.ty) {
                 Value::Bytes(a) => a,
                 _ => unreachable!("an intrinsic with an aggregate result"),
+            },
+            ExprKind::CallMethod(c) => match self.call_method(c, e.span) {
+                Some(Value::Bytes(a)) => a,
+                _ => unreachable!("a method with an aggregate result"),
             },
             ExprKind::Call { pou, args } => match self.call(*pou, args, e.span) {
                 Some(Value::Bytes(a)) => a,
@@ -280,7 +330,7 @@ impl Unit<'_, '_> {
                 let source = Text { addr: from, capacity: from_capacity, unit };
                 self.copy_text(Text { addr: to, capacity, unit }, source);
             }
-            _ => self.f.emit(Op::CopyBytes { to, from, size: self.hir.types.layout(ty).size }),
+            _ => self.copy_bytes(to, from, ty),
         }
     }
 
@@ -292,7 +342,7 @@ impl Unit<'_, '_> {
                 self.copy_text(Text { addr, capacity, unit }, t);
             }
             (Value::Bytes(from), Loc::Memory(to), _) if from != to => {
-                self.f.emit(Op::CopyBytes { to, from, size: self.hir.types.layout(ty).size });
+                self.copy_bytes(to, from, ty);
             }
             _ => {}
         }

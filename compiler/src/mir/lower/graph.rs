@@ -6,7 +6,7 @@ use takt_base::index::{Index, IndexVec};
 
 /// Units that can reach themselves through calls.
 pub fn recursive(hir: &Hir) -> IndexVec<PouId, bool> {
-    let callees: IndexVec<PouId, Vec<PouId>> = hir.pous.iter().map(callees).collect();
+    let callees: IndexVec<PouId, Vec<PouId>> = hir.pous.iter().map(|p| with_derived(hir, callees(p))).collect();
     hir.pous.indices().map(|p| reaches(&callees, p)).collect()
 }
 
@@ -20,6 +20,14 @@ fn callees(pou: &Pou) -> Vec<PouId> {
     found.sort();
     found.dedup();
     found
+}
+
+/// The body of a function block may be that of one that extends it.
+fn with_derived(hir: &Hir, mut list: Vec<PouId>) -> Vec<PouId> {
+    let all = hir.pous.enumerate().filter(|(_, p)| p.base.is_some());
+    let derived: Vec<PouId> = all.map(|(id, _)| id).filter(|id| list.iter().any(|l| l != id && hir.extends(*id, *l))).collect();
+    list.extend(derived);
+    list
 }
 
 fn reaches(callees: &IndexVec<PouId, Vec<PouId>>, unit: PouId) -> bool {

@@ -10,7 +10,12 @@ use takt_image::{Scalar, Trap, TypeId};
 impl Unit<'_, '_> {
     /// Address of `array[indices]`. Each subscript traps (Index) outside of its own dimension.
     pub fn element(&mut self, array: Addr, element: TypeId, dims: &[Dim], indices: &[Expr]) -> Addr {
-        let strides = strides(self.hir.types.layout(element).size, dims);
+        self.element_of_size(array, self.hir.types.layout(element).size, dims, indices)
+    }
+
+    /// The same for elements of `size` bytes.
+    pub fn element_of_size(&mut self, array: Addr, size: u32, dims: &[Dim], indices: &[Expr]) -> Addr {
+        let strides = strides(size, dims);
         let mut fixed = 0u32;
         let mut moving = None;
         for ((index, dim), stride) in indices.iter().zip(dims).zip(&strides) {
@@ -25,7 +30,7 @@ impl Unit<'_, '_> {
             }
         }
         let start = behind(array, fixed);
-        let size = dims.iter().fold(self.hir.types.layout(element).size, |size, d| size.saturating_mul(d.len()));
+        let size = dims.iter().fold(size, |size, d| size.saturating_mul(d.len()));
         moving.map_or(start, |bytes| self.moved(start, bytes, array, size))
     }
 
@@ -56,7 +61,7 @@ impl Unit<'_, '_> {
     }
 
     /// True for a ULINT that was converted to LINT, where its upper half became negative.
-    fn is_ulint(&self, index: &Expr) -> bool {
+    pub fn is_ulint(&self, index: &Expr) -> bool {
         let ExprKind::Convert(Conversion::Integer, inner) = &index.kind else { return false };
         self.hir.elementary(inner.ty).is_some_and(|e| e.bytes() == 8 && !e.is_signed_storage())
     }

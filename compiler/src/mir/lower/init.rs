@@ -66,6 +66,16 @@ fn part(known: (&TypeTable, &Globals), ty: TypeId, value: &Const, at: u32, put: 
             let size = types.layout(*element).size;
             items.iter().zip(0..).for_each(|(item, i)| part(known, *element, item, at + i * size, put));
         }
+        // Members in any order, and bits of one byte.
+        (Const::Aggregate(items), Type::Struct(r)) if !r.fields.is_sorted_by(|a, b| a.offset < b.offset) => {
+            let mut bytes = vec![0; r.size as usize];
+            for (item, f) in items.iter().zip(&r.fields) {
+                part(known, f.ty, item, f.offset, &mut |at, piece| {
+                    bytes.iter_mut().skip(at as usize).zip(piece).for_each(|(b, p)| *b |= p);
+                });
+            }
+            put(at, &bytes);
+        }
         (Const::Aggregate(items), Type::Struct(r) | Type::Instance(r)) => {
             items.iter().zip(&r.fields).for_each(|(item, f)| part(known, f.ty, item, at + f.offset, put));
         }

@@ -15,7 +15,7 @@ impl Unit<'_, '_> {
     pub fn intrinsic(&mut self, i: Intrinsic, args: &[Expr], ty: TypeId) -> Value {
         use Intrinsic::*;
         match i {
-            Sel | Mux | Max | Min | Limit | Move => self.selection(i, args, ty),
+            Sel | Mux | MuxLast | LimitLow | Max | Min | Limit | Move => self.selection(i, args, ty),
             Add => self.fold(Operator::Add, args, ty),
             Sub => self.fold(Operator::Sub, args, ty),
             Mul => self.fold(Operator::Mul, args, ty),
@@ -64,7 +64,7 @@ impl Unit<'_, '_> {
     }
 
     /// `x - x` is 0 for all numbers, NaN for NaN and the infinities.
-    fn is_finite(&mut self, x: Operand) -> Local {
+    pub fn is_finite(&mut self, x: Operand) -> Local {
         let nothing = self.f.binary(BinaryOp::FSub, x.local, x.local);
         let zero = self.f.zero(x.e.scalar());
         self.f.compare(Compare::FEq, nothing, zero)
@@ -90,6 +90,11 @@ impl Unit<'_, '_> {
     /// SHL, SHR: 0 from the width on; a negative amount changes nothing.
     fn shift(&mut self, i: Intrinsic, args: &[Expr]) -> Value {
         let (x, n) = (self.scalar_operand(&args[0]), self.scalar_operand(&args[1]));
+        self.shifted(i, x, n)
+    }
+
+    /// Like [`Unit::shift`], with the operands at hand.
+    pub fn shifted(&mut self, i: Intrinsic, x: Operand, n: Operand) -> Value {
         let ty = self.f.ty(x.local);
         let amount = self.f.resize(n.local, Scalar::I64, n.e.is_signed_storage());
         let below = self.f.compare_const(Compare::ULt, amount, x.e.bits() as i64);
@@ -124,10 +129,19 @@ impl Unit<'_, '_> {
         let e = self.hir.elementary(ty);
         match i {
             Intrinsic::Sel => self.choose(scalar_of(values[0]), values[2], values[1]),
-            Intrinsic::Mux => self.mux(values, &args[0]),
+            Intrinsic::Mux => self.mux(values, &args[0], 1),
+            Intrinsic::MuxLast => {
+                let last = values.len() - 1;
+                self.mux(values, &args[0], last)
+            }
             Intrinsic::Limit => {
                 let raised = self.extreme(Operator::Gt, values[1], values[0], e);
                 self.extreme(Operator::Lt, raised, values[2], e)
+            }
+            Intrinsic::LimitLow => {
+                let high = self.extreme(Operator::Lt, values[1], values[2], e);
+                let above = self.comparison(Operator::Gt, values[1], values[0], e);
+                self.choose(above, high, values[0])
             }
             Intrinsic::Max | Intrinsic::Min => {
                 let op = if i == Intrinsic::Max { Operator::Gt } else { Operator::Lt };
@@ -137,12 +151,12 @@ impl Unit<'_, '_> {
         }
     }
 
-    /// Input number K, from 0; input 0 if there is none.
-    fn mux(&mut self, values: Vec<Value>, k: &Expr) -> Value {
+    /// Input number K, from 0; the one at `otherwise`, counted from 1, if there is none.
+    pub fn mux(&mut self, values: Vec<Value>, k: &Expr, otherwise: usize) -> Value {
         let e = self.hir.elementary(k.ty).expect("an integer");
         let k = self.f.resize(scalar_of(values[0]), Scalar::I64, e.is_signed_storage());
-        let mut chosen = values[1];
-        for (value, number) in values[2..].iter().zip(1..) {
+        let mut chosen = values[otherwise];
+        for (value, number) in values[1..].iter().zip(0..) {
             let this = self.f.compare_const(Compare::Eq, k, number);
             chosen = self.choose(this, *value, chosen);
         }

@@ -10,15 +10,19 @@ mod counted;
 mod data;
 mod expr;
 mod graph;
+mod guarded;
 mod index;
 mod init;
 mod interval;
 mod intrinsic;
 mod lines;
 mod native;
+mod object;
+mod open;
 mod operator;
 mod place;
 mod pointer;
+mod retain;
 mod shape;
 mod stmt;
 mod task;
@@ -33,7 +37,7 @@ use lines::Lines;
 use std::collections::HashMap;
 use takt_base::index::IndexVec;
 use takt_base::{Diag, Sources};
-use takt_image::image::{Chunk, Symbol, Task};
+use takt_image::image::{Chunk, Retained, Symbol, Task};
 use takt_image::memory::MAX_MEMORY;
 use takt_image::{MemoryMap, NativeImport, Type};
 
@@ -48,6 +52,8 @@ pub struct Lowered {
     pub init: Vec<Chunk>,
     /// Named variables.
     pub symbols: Vec<Symbol>,
+    /// What keeps its value over a restart.
+    pub retained: Vec<Retained>,
     /// Tasks; their functions are indices into the module's.
     pub tasks: Vec<Task>,
 }
@@ -138,11 +144,12 @@ impl<'h> Program<'h> {
         if !self.diags.is_empty() {
             return Err(self.diags);
         }
+        let retained = retain::retained(self.hir, &self.data).map_err(|d| vec![d])?;
         let symbols = data::symbols(self.hir, &self.data);
         let Some((memory, init)) = self.data.finish(self.hir) else {
             return Err(vec![data::too_large(data::nowhere(), "the program")]);
         };
         (module.natives, module.lines, module.files) = (self.natives, self.lines.lines, self.lines.files);
-        Ok(Lowered { module, memory, init, symbols, tasks })
+        Ok(Lowered { module, memory, init, symbols, retained, tasks })
     }
 }

@@ -14,6 +14,11 @@ impl Unit<'_, '_> {
     /// A library native. CONCAT of many strings is made from pairs: an import has one signature.
     pub fn native(&mut self, name: &str, args: &[Expr], ty: TypeId) -> Value {
         let values = self.operands(&args.iter().collect::<Vec<_>>());
+        self.native_of(name, values, args, ty)
+    }
+
+    /// Like [`Unit::native`], with the values of the arguments at hand.
+    pub fn native_of(&mut self, name: &str, values: Vec<Value>, args: &[Expr], ty: TypeId) -> Value {
         let shape = self.shape(ty);
         if let (Shape::Text { capacity, .. }, true) = (shape, name.starts_with("CONCAT") && values.len() > 2) {
             return values.into_iter().reduce(|a, b| self.concat(name, a, b, capacity)).expect("strings");

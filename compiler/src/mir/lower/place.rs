@@ -7,7 +7,7 @@ use super::unit::{Home, Unit};
 use crate::hir::model::*;
 use crate::mir::model::*;
 use takt_image::image::Place as ImagePlace;
-use takt_image::types::Field;
+use takt_image::types::{Dim, Field};
 use takt_image::{Scalar, Trap, Type, TypeId, TypeTable};
 
 /// Where a value is.
@@ -39,9 +39,16 @@ impl Unit<'_, '_> {
 
     /// The same, with the checks for what is done there: what a pointer leads to is checked when the place is known.
     pub fn place_for(&mut self, p: &Place, purpose: Purpose) -> Loc {
-        let (mut loc, mut ty) = self.base(p);
+        let mut path = p.path.as_slice();
+        let (mut loc, mut ty) = match (&p.base, path) {
+            (&Base::Var(v), [first, rest @ ..]) if matches!(self.homes[v], Home::Open(_)) => {
+                path = rest;
+                self.open_step(v, first, p.ty)
+            }
+            _ => self.base(p),
+        };
         let mut pointed = false;
-        for step in &p.path {
+        for step in path {
             match step {
                 Step::Deref => {
                     if pointed {
@@ -56,11 +63,36 @@ impl Unit<'_, '_> {
                     loc = self.checked(loc, ty, purpose);
                     pointed = false;
                 }
+                Step::Index(list) if matches!(self.shape(ty), Shape::Text { .. }) => {
+                    (loc, ty) = (self.text_unit(loc, ty, list), p.ty);
+                    continue;
+                }
                 _ => {}
             }
             (loc, ty) = self.step(loc, ty, step);
         }
         if pointed { self.checked(loc, ty, purpose) } else { loc }
+    }
+
+    /// A unit of a string by its number from 0, the zero behind the last included (vendor).
+    fn text_unit(&mut self, loc: Loc, ty: TypeId, index: &[Expr]) -> Loc {
+        let (Loc::Memory(addr), Shape::Text { capacity, unit }) = (loc, self.shape(ty)) else {
+            unreachable!("strings are in memory")
+        };
+        let dim = Dim { low: 0, high: i32::try_from(capacity).unwrap_or(i32::MAX) };
+        Loc::Memory(self.element_of_size(addr, unit, &[dim], index))
+    }
+
+    /// An element, or a word of the descriptor, of an array of variable length.
+    fn open_step(&mut self, v: VarId, step: &Step, last: TypeId) -> (Loc, TypeId) {
+        let (Home::Open(array), Type::Open { element, .. }) = (self.homes[v], self.hir.types.get(self.var(v).ty)) else {
+            unreachable!("an array of variable length")
+        };
+        match step {
+            Step::Index(indices) => (Loc::Memory(self.open_element(array, *element, indices)), *element),
+            Step::Field(i) => (self.open_word(array, *i), last),
+            _ => unreachable!("it has elements and bounds"),
+        }
     }
 
     fn pointee(&self, ty: TypeId) -> TypeId {
@@ -83,6 +115,7 @@ impl Unit<'_, '_> {
     fn base(&mut self, p: &Place) -> (Loc, TypeId) {
         match &p.base {
             Base::Value(e) => (Loc::Register(self.value(e)), e.ty),
+            Base::This => (Loc::Memory(self.this.expect("only types have instances")), self.this_type()),
             &Base::Var(v) => (self.home(v), self.var(v).ty),
             &Base::Global(g) => (image_loc(self.program.data.globals[g]), self.hir.globals[g].ty),
             &Base::Image(place) => (image_loc(place), p.ty),
@@ -94,6 +127,7 @@ impl Unit<'_, '_> {
             Home::Register(l) => Loc::Register(l),
             Home::Memory(a) => Loc::Memory(a),
             Home::Image(place) => image_loc(place),
+            Home::Open(_) => unreachable!("an array of variable length is not used as a whole"),
         }
     }
 

@@ -65,6 +65,9 @@ impl Program<'_> {
 
     fn make_static(&mut self, id: PouId, pou: &Pou, var: VarId, kept: bool) {
         let v = &pou.vars[var];
+        if matches!(self.hir.types.get(v.ty), Type::Open { .. }) {
+            return;
+        }
         if self.recursive[id] {
             if kept {
                 let help = "declare it in a function block, or pass it as VAR_IN_OUT";

@@ -25,6 +25,6 @@ pub fn shape(types: &TypeTable, ty: TypeId) -> Shape {
         Type::String { capacity } => Shape::Text { capacity: *capacity, unit: 1 },
         Type::WString { capacity } => Shape::Text { capacity: *capacity, unit: 2 },
         Type::Reference { .. } | Type::Pointer { .. } => Shape::Scalar(Elementary::Udint),
-        Type::Array { .. } | Type::Struct(_) | Type::Instance(_) => Shape::Bytes,
+        Type::Open { .. } | Type::Array { .. } | Type::Struct(_) | Type::Instance(_) => Shape::Bytes,
     }
 }

@@ -23,7 +23,7 @@ fn task(program: &mut Program<'_>, module: &mut Module, t: &Task, number: usize)
 }
 
 fn entry(program: &mut Program<'_>, module: &mut Module, p: &ProgramInstance, instance: u32, t: &Task) -> image::Program {
-    let connected = !p.inputs.is_empty() || !p.outputs.is_empty();
+    let connected = !p.inputs.is_empty() || !p.outputs.is_empty() || program.hir.mirrors.iter().any(|m| m.is_seen_by(p));
     let function = if connected {
         module.functions.push(wrapper(program, p, &t.name)).index() as u32
     } else {
@@ -45,7 +45,7 @@ fn fixed_place(program: &mut Program<'_>, p: &Place) -> Option<ImagePlace> {
     let (mut at, mut ty) = match p.base {
         Base::Global(g) => (program.data.globals[g], program.hir.globals[g].ty),
         Base::Image(place) => (place, p.ty),
-        Base::Var(_) | Base::Value(_) => return unfit(program, p),
+        Base::Var(_) | Base::This | Base::Value(_) => return unfit(program, p),
     };
     for step in &p.path {
         let Some(next) = fixed_step(program.hir, at, ty, step) else { return unfit(program, p) };

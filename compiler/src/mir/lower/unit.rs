@@ -6,6 +6,7 @@
 use super::Program;
 use super::builder::{Builder, at, behind, fixed};
 use super::counted::Counter;
+use super::open::OpenArray;
 use super::place::{Loc, field};
 use super::shape::{Shape, shape};
 use super::walk::{self, Event};
@@ -30,6 +31,8 @@ pub enum Home {
     Memory(Addr),
     /// In the process image.
     Image(ImagePlace),
+    /// An array of variable length: its number in [`Unit::open`].
+    Open(usize),
 }
 
 /// Where EXIT and CONTINUE go.
@@ -46,7 +49,11 @@ pub struct Unit<'p, 'h> {
     pub f: Builder,
     /// `None` in the entry of a program with connections.
     pub pou: Option<PouId>,
+    /// The running instance, and its type.
+    pub this: Option<Addr>,
+    this_type: Option<takt_image::TypeId>,
     pub homes: IndexVec<VarId, Home>,
+    pub open: Vec<OpenArray>,
     pub loops: Vec<LoopEnds>,
     pub counters: Vec<Counter>,
     /// Registers of FOR variables in memory; loops of one variable are never within each other.
@@ -99,7 +106,10 @@ impl<'p, 'h> Unit<'p, 'h> {
             program,
             f,
             pou,
+            this: None,
+            this_type: None,
             homes: IndexVec::new(),
+            open: Vec::new(),
             loops: Vec::new(),
             counters: Vec::new(),
             counter_registers: HashMap::new(),
@@ -139,7 +149,13 @@ impl<'p, 'h> Unit<'p, 'h> {
         if pou.kind == PouKind::Program {
             self.f.regions.named_instances = 0..0;
         }
+        (self.this, self.this_type) = (Some(at(this)), pou.instance);
         at(this)
+    }
+
+    /// Type of the running instance.
+    pub fn this_type(&self) -> takt_image::TypeId {
+        self.this_type.expect("only types have instances")
     }
 
     /// Adds the parameter with the offset of something of the caller.
@@ -179,7 +195,10 @@ impl<'p, 'h> Unit<'p, 'h> {
     }
 
     fn parameters(&mut self, pou: &'h Pou) {
-        if pou.kind == PouKind::Function {
+        if let Some(owner) = pou.owner {
+            self.instance_param(&self.hir.pous[owner]);
+            self.function_parameters(pou);
+        } else if pou.kind == PouKind::Function {
             self.function_parameters(pou);
         } else {
             self.instance_parameter(pou);
@@ -214,6 +233,9 @@ impl<'p, 'h> Unit<'p, 'h> {
             self.f.trap_if(Trap::Reference, unbound);
         }
         self.check_in_out(target, self.hir.types.layout(var.ty).size);
+        if self.is_open(var.ty) {
+            return self.open_home(target, var.ty);
+        }
         Home::Memory(at(target))
     }
 
@@ -224,6 +246,7 @@ impl<'p, 'h> Unit<'p, 'h> {
         for (id, var) in pou.vars.enumerate() {
             let given = incoming.iter().find(|(p, _)| *p == id).map(|(_, local)| *local);
             let home = match (var.role, given) {
+                (_, Some(local)) if self.is_open(var.ty) => self.open_home(local, var.ty),
                 (Role::InOut, Some(local)) => Home::Memory(at(local)),
                 (Role::Input, Some(local)) => self.input_home(id, var, local),
                 (Role::Result, _) if destination.is_some() && self.fixed_home(id).is_some() => {
@@ -269,6 +292,7 @@ impl<'p, 'h> Unit<'p, 'h> {
             _ => {
                 let own = self.own_space(id, var);
                 self.copy_aggregate(own, shape, at(local), shape, var.ty);
+                self.set_class(own, var.ty);
                 Home::Memory(own)
             }
         }
@@ -312,8 +336,13 @@ impl<'p, 'h> Unit<'p, 'h> {
     /// Locals, outputs and the result of a function start anew at each call, as VAR_TEMP does everywhere.
     fn initial_values(&mut self, pou: &'h Pou) {
         for (id, var) in pou.vars.enumerate() {
+            let block_eno = var.role == Role::Output && var.init == Const::Int(1) && var.name.eq_ignore_ascii_case("ENO");
+            if let (true, Storage::Field(_), Home::Memory(pin)) = (block_eno, var.storage, self.homes[id]) {
+                let on = self.f.int(Scalar::I8, 1);
+                self.f.store(pin, on);
+            }
             let given = matches!(var.role, Role::Input | Role::InOut);
-            if var.storage != Storage::Local || given {
+            if var.storage != Storage::Local || given || self.is_open(var.ty) {
                 continue;
             }
             match (self.shape(var.ty), self.homes[id]) {
@@ -370,6 +399,6 @@ fn home_loc(home: Home) -> Loc {
     match home {
         Home::Register(l) => Loc::Register(l),
         Home::Memory(a) => Loc::Memory(a),
-        Home::Image(_) => unreachable!("locals are not in the process image"),
+        Home::Image(_) | Home::Open(_) => unreachable!("locals are not in the process image"),
     }
 }

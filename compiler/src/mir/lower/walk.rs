@@ -75,6 +75,26 @@ pub fn expression<'a>(e: &'a Expr, on: &mut dyn FnMut(Event<'a>)) {
             args.iter().for_each(|a| argument(a, on));
             on(Event::Call(*pou));
         }
+        ExprKind::Guarded(g) => {
+            g.en.iter().for_each(|en| expression(en, on));
+            expression(&g.call, on);
+            if let Some(eno) = &g.eno {
+                write(&eno.target, on);
+            }
+        }
+        ExprKind::CallMethod(c) => {
+            match &c.receiver {
+                Receiver::Place(p) => place(p, on),
+                Receiver::Reference(e) => expression(e, on),
+            }
+            c.args.iter().for_each(|a| argument(a, on));
+            c.targets().into_iter().for_each(|t| on(Event::Call(t)));
+        }
+        ExprKind::AddressOf(p) => {
+            place(p, on);
+            on(Event::Lend(p));
+        }
+        ExprKind::OfClass(a, _) => expression(a, on),
         ExprKind::Intrinsic(_, args) | ExprKind::Native { args, .. } => args.iter().for_each(|a| expression(a, on)),
     }
 }
@@ -112,13 +132,13 @@ fn place<'a>(p: &'a Place, on: &mut dyn FnMut(Event<'a>)) {
 /// True if evaluating the expression calls a user's unit, which may change anything.
 pub fn calls(e: &Expr) -> bool {
     let mut found = false;
-    expression(e, &mut |event| found |= matches!(event, Event::Call(_)));
+    expression(e, &mut |event| found |= matches!(event, Event::Call(_) | Event::Write(_)));
     found
 }
 
 /// Like [`calls`], for an argument.
 pub fn argument_calls(arg: &Arg) -> bool {
     let mut found = false;
-    argument(arg, &mut |event| found |= matches!(event, Event::Call(_)));
+    argument(arg, &mut |event| found |= matches!(event, Event::Call(_) | Event::Write(_)));
     found
 }

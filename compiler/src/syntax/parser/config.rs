@@ -14,11 +14,14 @@ impl Parser<'_> {
         let opener = self.here();
         self.bump();
         let name = self.head_name("the name of the configuration", opener);
-        let mut configuration = Configuration { name, globals: Vec::new(), resources: Vec::new() };
+        let mut configuration =
+            Configuration { name, globals: Vec::new(), resources: Vec::new(), config: Vec::new(), access: Vec::new() };
         let mut direct = empty_resource(None);
         while !self.at_end() && self.kw() != Kw::EndConfiguration {
             match self.kw() {
                 Kw::Resource => configuration.resources.extend(self.resource()),
+                Kw::VarConfig => configuration.config.extend(self.var_config()),
+                Kw::VarAccess => configuration.access.extend(self.var_access()),
                 kw if kw.is_section() => configuration.globals.extend(self.var_section()),
                 kw if ends_resource(kw) => break,
                 _ => self.resource_member(&mut direct),

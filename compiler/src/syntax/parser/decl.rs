@@ -2,7 +2,7 @@
 //! From: IEC 61131-3 §6.6 (language reference §3.9, §4).
 
 use super::cursor::Parser;
-use crate::syntax::ast::{File, Item, Name, Pou, PouKind, Stmt, TypeRef, VarSection};
+use crate::syntax::ast::{File, Item, Name, Objects, Pou, PouKind, Stmt, TypeRef, VarSection};
 use crate::syntax::keyword::Kw;
 use crate::syntax::lexer::Tok;
 use takt_base::diag::{Code, Diag};
@@ -19,6 +19,7 @@ impl Parser<'_> {
                 self.bump();
             }
         }
+        self.misplaced_tests();
         File { items }
     }
 
@@ -40,6 +41,8 @@ impl Parser<'_> {
                 Some(Item::Pou(self.pou(PouKind::FunctionBlock, Kw::EndFunctionBlock)))
             }
             Kw::Program => Some(Item::Pou(self.pou(PouKind::Program, Kw::EndProgram))),
+            Kw::Class => Some(Item::Pou(self.pou(PouKind::Class, Kw::EndClass))),
+            Kw::Interface => Some(Item::Pou(self.pou(PouKind::Interface, Kw::EndInterface))),
             Kw::VarGlobal => self.var_section().map(Item::Globals),
             Kw::Configuration => Some(Item::Configuration(self.configuration())),
             _ => {
@@ -54,61 +57,50 @@ impl Parser<'_> {
             return;
         }
         let diag = self.expected_diag("a declaration");
-        self.error(diag.help("a file holds PROGRAM, FUNCTION_BLOCK, FUNCTION, TYPE, VAR_GLOBAL and CONFIGURATION"));
+        self.error(
+            diag.help("a file holds PROGRAM, FUNCTION_BLOCK, FUNCTION, CLASS, INTERFACE, TYPE, VAR_GLOBAL and CONFIGURATION"),
+        );
         self.bump();
         self.skip_to_item();
     }
 
     fn pou(&mut self, kind: PouKind, end: Kw) -> Pou {
+        let first = self.pos;
         let external = self.tokens.external.binary_search(&self.pos).is_ok();
+        let test = self.test_pragma(kind);
         let opener = self.here();
         let opener_name = self.bump().kw.text();
-        let name = self.pou_head();
+        let mut objects = Objects { modifiers: self.modifiers(), ..Objects::default() };
+        let name = self.pou_head(&mut objects);
         let result = self.result_type();
-        self.heritage();
+        self.heritage(&mut objects);
         self.eat(Tok::Semi);
         let mut sections = self.sections();
-        let body = self.pou_body(&mut sections);
+        let body = self.pou_body(kind, &mut sections, &mut objects);
         self.close_pou(end, opener, opener_name);
         let name = name.unwrap_or(Name { text: String::new(), span: opener.end_point() });
+        let inside = |at: &&(usize, Span)| (first..=self.pos).contains(&at.0);
+        let inline_c = self.tokens.inline_c.iter().find(inside).map(|c| c.1);
         let result = result.filter(|_| kind == PouKind::Function);
-        Pou { kind, name, result, sections, body, external, span: self.since(opener) }
+        Pou { kind, name, result, sections, body, objects, external, inline_c, test, span: self.since(opener) }
     }
 
-    /// The name, and what stands around it that this version lacks.
-    fn pou_head(&mut self) -> Option<Name> {
-        while matches!(self.kw(), Kw::Final | Kw::Abstract | Kw::Public | Kw::Private | Kw::Protected | Kw::Internal) {
-            let what = self.kw().text();
-            self.unsupported_here(what);
-            self.bump();
+    fn pou_head(&mut self, objects: &mut Objects) -> Option<Name> {
+        if self.starts_member() {
+            let diag = self.expected_diag("the name of the unit");
+            self.soft(diag);
+            return None;
         }
         let name = self.declared_name("the name of the unit");
-        self.heritage();
+        self.heritage(objects);
         if self.lost {
             self.skip_head();
         }
         name
     }
 
-    /// EXTENDS, IMPLEMENTS and USING with their names.
-    fn heritage(&mut self) {
-        while matches!(self.kw(), Kw::Extends | Kw::Implements | Kw::Using) {
-            let what = self.kw().text();
-            self.unsupported_here(what);
-            self.bump();
-            while self.at(Tok::Word) && !self.kw().is_reserved() && matches!(self.nth(1).kind, Tok::Comma | Tok::Dot) {
-                self.bump();
-                self.bump();
-            }
-            if self.at(Tok::Word) && !self.kw().is_reserved() {
-                self.bump();
-            }
-            self.eat(Tok::Semi);
-        }
-    }
-
     /// `: INT` behind the name; `: VOID` is no result.
-    fn result_type(&mut self) -> Option<TypeRef> {
+    pub(super) fn result_type(&mut self) -> Option<TypeRef> {
         if !self.eat(Tok::Colon) {
             return None;
         }
@@ -130,23 +122,27 @@ impl Parser<'_> {
         }
     }
 
-    /// Statements up to the end of the unit.
-    fn pou_body(&mut self, sections: &mut Vec<VarSection>) -> Vec<Stmt> {
+    /// Statements up to the end of the unit, with its methods before, between and behind them.
+    fn pou_body(&mut self, kind: PouKind, sections: &mut Vec<VarSection>, objects: &mut Objects) -> Vec<Stmt> {
         let mut body = Vec::new();
         loop {
-            if self.unsupported_body() {
+            if self.member_of_unit(kind, objects) || self.unsupported_body() {
                 continue;
             }
             body.append(&mut self.body_statements());
             if self.at_section() && self.kw() != Kw::VarGlobal {
-                self.late_section(sections);
-            } else if !self.unsupported_body() {
+                if body.is_empty() && !objects.methods.is_empty() {
+                    sections.append(&mut self.sections());
+                } else {
+                    self.late_section(sections);
+                }
+            } else if !self.member_of_unit(kind, objects) && !self.unsupported_body() {
                 return body;
             }
         }
     }
 
-    fn close_pou(&mut self, end: Kw, opener: Span, opener_name: &str) {
+    pub(super) fn close_pou(&mut self, end: Kw, opener: Span, opener_name: &str) {
         if self.eat_kw(end) {
             self.eat(Tok::Semi);
             return;

@@ -99,6 +99,11 @@ impl Parser<'_> {
         Tree::error(expr.span)
     }
 
+    /// True at an operator of this language other than `=`, which is a mistyped `:=` behind a variable.
+    pub(super) fn is_operator(&self) -> bool {
+        !self.at(Tok::Eq) && self.operator().is_some()
+    }
+
     fn operator(&self) -> Option<BinaryOp> {
         let token = self.peek();
         Some(match token.kind {
@@ -348,13 +353,9 @@ impl Parser<'_> {
                 ExprKind::Null
             }
             Kw::This | Kw::Super if !self.is_used_as_name(token.kw) => {
-                self.unsupported_here(match token.kw {
-                    Kw::This => "object orientation (THIS)",
-                    _ => "object orientation (SUPER)",
-                });
-                self.bump();
-                self.eat(Tok::Caret);
-                ExprKind::Error
+                let name = self.bare_name();
+                self.eat(Tok::Caret); // vendor
+                ExprKind::Name(name)
             }
             kw if !kw.is_reserved() || self.is_used_as_name(kw) => ExprKind::Name(self.name()),
             kw if (is_function(kw) || kw.is_type()) && self.nth(1).kind == Tok::LParen => ExprKind::Name(self.bare_name()),

@@ -35,9 +35,8 @@ impl Parser<'_> {
     /// True at a part of a unit that is no statement.
     pub(super) fn starts_unit_part(&self) -> bool {
         let kw = self.kw();
-        let part =
-            matches!(kw, Kw::Action | Kw::Method | Kw::Property | Kw::Step | Kw::InitialStep | Kw::Transition | Kw::VarStat);
-        part && self.nth(1).kind == Tok::Word
+        let part = matches!(kw, Kw::Action | Kw::Step | Kw::InitialStep | Kw::Transition | Kw::VarStat);
+        part && self.nth(1).kind == Tok::Word || self.starts_member()
     }
 
     /// True if the current word, keyword or not, is used as a name: `exit := TRUE`.
@@ -118,12 +117,8 @@ impl Parser<'_> {
 
     fn return_statement(&mut self) -> StmtKind {
         self.bump();
-        if !matches!(self.kind(), Tok::Semi | Tok::Eof) && !self.is_first_on_line() && !self.kw().ends_statements() {
-            let diag = self.unsupported_diag("RETURN with a value");
-            self.soft(diag.help("assign the value to the name of the function, then write RETURN;"));
-            self.expr();
-        }
-        StmtKind::Return
+        let alone = matches!(self.kind(), Tok::Semi | Tok::Eof) || self.is_first_on_line() || self.kw().ends_statements();
+        StmtKind::Return((!alone).then(|| self.expr()))
     }
 
     /// `JMP label;` (vendor).
@@ -170,9 +165,15 @@ impl Parser<'_> {
             self.no_statement();
             return StmtKind::Error;
         }
+        let start = self.pos;
         let target = self.variable();
         if self.lost {
             return StmtKind::Error;
+        }
+        let is_call = matches!(target.kind, ExprKind::Call { .. } | ExprKind::Error);
+        if self.profile.is_codesys() && !is_call && (self.at(Tok::Semi) || self.is_operator()) {
+            self.pos = start;
+            return StmtKind::Expression(self.expr());
         }
         match self.kind() {
             Tok::Assign => self.assign(target),

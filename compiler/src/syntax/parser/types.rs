@@ -2,7 +2,9 @@
 //! From: IEC 61131-3 §6.4 (language reference §2, §3.9).
 
 use super::cursor::Parser;
-use crate::syntax::ast::{Arg, EnumDecl, Expr, ExprKind, Init, Name, TypeBody, TypeDecl, TypeRef, TypeRefKind, VarDecl};
+use crate::syntax::ast::{
+    Arg, EnumDecl, Expr, ExprKind, Init, LayoutDecl, Name, TypeBody, TypeDecl, TypeRef, TypeRefKind, VarDecl,
+};
 use crate::syntax::keyword::Kw;
 use crate::syntax::lexer::Tok;
 use takt_base::diag::{Code, Diag};
@@ -180,6 +182,10 @@ impl Parser<'_> {
     /// `low..high`.
     fn range(&mut self) -> (Expr, Expr) {
         let low = self.expr();
+        // A type name stands for all its values (vendor).
+        if matches!(low.kind, ExprKind::Name(_)) && (self.at(Tok::Comma) || self.at(Tok::RBracket)) && self.profile.is_codesys() {
+            return (low.clone(), low);
+        }
         if self.lost || !self.eat(Tok::Range) {
             let diag = self.expected_diag("`..` and the upper bound");
             self.error(diag.help("write both bounds, for example 0..9"));
@@ -199,13 +205,15 @@ impl Parser<'_> {
         if !self.expect(Tok::LBracket, "`[` and the bounds of the array") {
             return TypeRefKind::Error;
         }
-        let (mut dims, mut reported) = (Vec::new(), false);
+        let (mut dims, mut open) = (Vec::new(), 0);
         loop {
-            if self.at(Tok::Star) {
-                if !std::mem::replace(&mut reported, true) {
-                    self.unsupported_here("an array of variable length");
-                }
-                self.bump();
+            let mixed = if self.at(Tok::Star) { !dims.is_empty() } else { open > 0 };
+            if mixed {
+                let diag = Diag::new(Code::Expected, self.here(), "either all dimensions have bounds, or none");
+                self.soft(diag.message("bounds and * in one array"));
+            }
+            if self.eat(Tok::Star) {
+                open += 1;
             } else {
                 dims.push(self.range());
             }
@@ -218,7 +226,7 @@ impl Parser<'_> {
             return TypeRefKind::Error;
         }
         let element = Box::new(self.type_ref());
-        if dims.is_empty() { TypeRefKind::Error } else { TypeRefKind::Array { dims, element } }
+        if open > 0 { TypeRefKind::OpenArray { dims: open, element } } else { TypeRefKind::Array { dims, element } }
     }
 
     /// Takes a keyword or reports that it is missing.
@@ -277,14 +285,19 @@ impl Parser<'_> {
     fn structure(&mut self) -> TypeRefKind {
         let opener = self.here();
         self.bump();
-        if self.kw() == Kw::Overlap || self.kw() == Kw::Extends {
+        let overlap = self.eat_kw(Kw::Overlap);
+        if self.kw() == Kw::Extends {
             let what = self.kw().text();
             self.unsupported_here(what);
             if self.bump().kw == Kw::Extends && self.at(Tok::Word) {
                 self.bump();
             }
         }
-        TypeRefKind::Struct(self.members(Kw::EndStruct, opener, "STRUCT"))
+        let members = self.members(Kw::EndStruct, opener, "STRUCT");
+        if overlap || members.iter().any(|m| m.relative.is_some()) {
+            return TypeRefKind::Layout(LayoutDecl { members, overlap, union: false });
+        }
+        TypeRefKind::Struct(members)
     }
 
     /// Members up to `end`.
@@ -312,10 +325,10 @@ impl Parser<'_> {
 
     fn union(&mut self) -> TypeRefKind {
         let opener = self.here();
-        self.unsupported_here("UNION");
+        self.codesys_form("UNION");
         self.bump();
-        self.members(Kw::EndUnion, opener, "UNION");
-        TypeRefKind::Error
+        let members = self.members(Kw::EndUnion, opener, "UNION");
+        TypeRefKind::Layout(LayoutDecl { members, overlap: true, union: true })
     }
 
     /// `REF_TO T`, `POINTER TO T`, `REFERENCE TO T`.

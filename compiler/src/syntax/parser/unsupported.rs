@@ -7,12 +7,8 @@ use takt_base::Profile;
 use takt_base::diag::{Code, Diag};
 
 /// Declarations by opening and closing keyword.
-const CONSTRUCTS: [(Kw, Kw); 8] = [
-    (Kw::Class, Kw::EndClass),
-    (Kw::Interface, Kw::EndInterface),
+const CONSTRUCTS: [(Kw, Kw); 4] = [
     (Kw::Namespace, Kw::EndNamespace),
-    (Kw::Method, Kw::EndMethod),
-    (Kw::Property, Kw::EndProperty),
     (Kw::Action, Kw::EndAction),
     (Kw::Actions, Kw::EndActions),
     (Kw::Resource, Kw::EndResource),
@@ -63,7 +59,7 @@ impl Parser<'_> {
     /// A construct between the statements of a unit; false if none stands here.
     pub(super) fn unsupported_body(&mut self) -> bool {
         match self.kw() {
-            Kw::Method | Kw::Property | Kw::Action | Kw::Actions if self.nth(1).kind == Tok::Word => self.unsupported_construct(),
+            Kw::Action | Kw::Actions if self.nth(1).kind == Tok::Word => self.unsupported_construct(),
             Kw::InitialStep | Kw::Step | Kw::Transition if self.nth(1).kind == Tok::Word => {
                 self.unsupported_here("Sequential Function Chart");
                 self.skip_body();

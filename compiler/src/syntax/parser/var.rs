@@ -3,7 +3,9 @@
 
 use super::cursor::Parser;
 use super::literal::problem_diag;
-use crate::syntax::ast::{Address, Edge, Name, SectionKind, TypeRef, TypeRefKind, VarDecl, VarSection};
+use crate::syntax::ast::{
+    Address, AddressSize, Edge, Name, RelativeAddress, SectionKind, TypeRef, TypeRefKind, VarDecl, VarSection,
+};
 use crate::syntax::keyword::Kw;
 use crate::syntax::lexer::Tok;
 use crate::syntax::literal::address;
@@ -41,7 +43,8 @@ impl Parser<'_> {
             return None;
         };
         self.bump();
-        let mut section = VarSection { kind, constant: false, retain: None, decls: Vec::new(), span: start };
+        let mut section =
+            VarSection { kind, constant: false, retain: None, access: None, persistent: false, decls: Vec::new(), span: start };
         self.qualifiers(&mut section);
         section.span = self.since(start);
         self.decls(&mut section, start, kw);
@@ -51,18 +54,18 @@ impl Parser<'_> {
     fn qualifiers(&mut self, section: &mut VarSection) {
         loop {
             match self.kw() {
+                Kw::Retain | Kw::NonRetain if section.retain.is_some_and(|r| r != (self.kw() == Kw::Retain)) => {
+                    let diag = self.expected_diag("one of RETAIN and NON_RETAIN").help("leave one of them out");
+                    self.soft(diag);
+                }
                 Kw::Constant => section.constant = true,
                 Kw::Retain => section.retain = Some(true),
                 Kw::NonRetain => section.retain = Some(false),
                 Kw::Persistent if self.nth(1).kind == Tok::Word => {
-                    let diag = self.unsupported_diag("PERSISTENT");
-                    self.soft(diag.help("write RETAIN: the values are kept over a power failure"));
-                    section.retain = Some(true);
+                    self.codesys_form("PERSISTENT");
+                    section.persistent = true;
                 }
-                Kw::Public | Kw::Private | Kw::Protected | Kw::Internal => {
-                    let what = self.kw().text();
-                    self.unsupported_here(what);
-                }
+                Kw::Public | Kw::Private | Kw::Protected | Kw::Internal => section.access = super::object::access(self.kw()),
                 _ => return,
             }
             self.bump();
@@ -123,7 +126,9 @@ impl Parser<'_> {
     fn var_decl_inner(&mut self) -> Option<VarDecl> {
         let start = self.here();
         let names = if self.kw() == Kw::At { Vec::new() } else { self.names()? };
-        let at = if self.eat_kw(Kw::At) { self.located()? } else { None };
+        let has_at = self.eat_kw(Kw::At);
+        let relative = if has_at { self.relative() } else { None };
+        let at = if has_at && relative.is_none() { self.located()? } else { None };
         if !self.eat(Tok::Colon) {
             self.no_colon(&names);
             if self.lost {
@@ -136,7 +141,7 @@ impl Parser<'_> {
         if matches!(ty, TypeRef { kind: TypeRefKind::Error, .. }) && names.is_empty() {
             return None;
         }
-        Some(VarDecl { names, at, ty, edge, init, span: self.since(start) })
+        Some(VarDecl { names, at, relative, ty, edge, init, span: self.since(start) })
     }
 
     fn names(&mut self) -> Option<Vec<Name>> {
@@ -148,7 +153,7 @@ impl Parser<'_> {
     }
 
     /// The address behind AT; the inner `None` stands for one that was reported.
-    fn located(&mut self) -> Option<Option<Address>> {
+    pub(super) fn located(&mut self) -> Option<Option<Address>> {
         if !self.at(Tok::Direct) {
             self.expected("a direct address such as %IX0.0");
             return None;
@@ -157,10 +162,6 @@ impl Parser<'_> {
         let span = self.span_of(token);
         let address = match address::direct(self.text_of(token), span) {
             Ok(address) => Some(address),
-            Err(_) if address::partial(self.text_of(token)).is_ok() => {
-                self.unsupported_here("a relative address in a structure");
-                None
-            }
             Err(problem) => {
                 self.soft(problem_diag(problem, span));
                 None
@@ -168,6 +169,23 @@ impl Parser<'_> {
         };
         self.bump();
         Some(address)
+    }
+
+    /// `%B2`, `%X3.0` behind AT: a place in a structure.
+    fn relative(&mut self) -> Option<RelativeAddress> {
+        let token = self.peek();
+        if token.kind != Tok::Direct {
+            return None;
+        }
+        let (text, span) = (self.text_of(token), self.span_of(token));
+        let (first, bit) = text.split_once('.').map_or((text, None), |(a, b)| (a, Some(b)));
+        let (size, byte) = address::partial(first).ok()?;
+        let bit = bit.map_or(Some(0), |b| address::bit(b).ok())?;
+        if !matches!(size, AddressSize::Bit | AddressSize::Byte) || text.contains('.') != (size == AddressSize::Bit) {
+            return None;
+        }
+        self.bump();
+        Some(RelativeAddress { size, byte, bit, span })
     }
 
     /// A colon is missing behind the names; not lost afterwards if a type follows.

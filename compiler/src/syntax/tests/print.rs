@@ -30,6 +30,9 @@ fn pou(pou: &Pou) -> String {
         PouKind::Function => "function",
         PouKind::FunctionBlock => "fb",
         PouKind::Program => "program",
+        PouKind::Class => "class",
+        PouKind::Interface => "interface",
+        PouKind::Method => "method",
     };
     let external = if pou.external { "external" } else { "" };
     let result = optional(&pou.result, |t| format!(": {}", type_ref(t)));
@@ -83,7 +86,9 @@ fn type_ref(t: &TypeRef) -> String {
             let dims: Vec<_> = dims.iter().map(|(l, h)| format!("{}..{}", expr(l), expr(h))).collect();
             format!("[{}]{}", dims.join(","), type_ref(element))
         }
+        TypeRefKind::OpenArray { dims, element } => format!("[{}]{}", vec!["*"; *dims].join(","), type_ref(element)),
         TypeRefKind::Enum(e) => enumeration(e),
+        TypeRefKind::Layout(l) => list([if l.union { "union" } else { "layout" }.into(), all(&l.members, var)]),
         TypeRefKind::Struct(members) => list(["struct".into(), all(members, var)]),
         TypeRefKind::Pointer { kind, target } => list([kind.text().to_lowercase().replace(' ', "_"), type_ref(target)]),
         TypeRefKind::Error => "?".into(),
@@ -162,7 +167,8 @@ fn stmt(s: &Stmt) -> String {
         StmtKind::Repeat { body, until } => list(["repeat".into(), block(body), expr(until)]),
         StmtKind::Exit => "exit".into(),
         StmtKind::Continue => "continue".into(),
-        StmtKind::Return => "return".into(),
+        StmtKind::Return(value) => format!("return{}", optional(value, |v| format!(" {}", expr(v)))),
+        StmtKind::Expression(e) => list(["drop".into(), expr(e)]),
         StmtKind::Label(name) => format!("{}:", name.text),
         StmtKind::Jump(name) => format!("jmp {}", name.text),
         StmtKind::Instructions(lines) => format!("(il {})", lines.len()),

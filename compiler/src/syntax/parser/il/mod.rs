@@ -60,8 +60,14 @@ impl Parser<'_> {
             Word::Call(_) => next == Tok::Word && !alone,
             Word::Simple(Op::Not, _) => alone,
             Word::Simple(..) if self.nth(n).kw.is_reserved() => next != Tok::LParen,
-            Word::Simple(..) => !alone && starts_operand(next),
+            Word::Simple(..) => !alone && starts_operand(next) && !self.is_set_at(n + 1),
         }
+    }
+
+    /// True at `S=`, `R=`, `REF=`: what stands before it is a variable of an ST statement.
+    fn is_set_at(&self, n: usize) -> bool {
+        let (word, next) = (self.nth(n), self.nth(n + 1));
+        next.kind == Tok::Eq && next.start == word.end
     }
 
     /// True if `function( .. )` without a `;` stands there, with an instruction behind it.
