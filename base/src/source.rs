@@ -56,6 +56,8 @@ pub struct Source {
     pub text: String,
     /// True for the standard library and generated declarations: no warnings, not in fault traces.
     pub library: bool,
+    /// True if the bytes were not UTF-8 and have been read as Latin-1: a character of a string is one byte.
+    pub latin1: bool,
     /// Dialect that it is written in.
     pub profile: Profile,
     line_starts: Vec<u32>,
@@ -75,7 +77,7 @@ impl Sources {
 
     /// Adds a user's file from text.
     pub fn add(&mut self, name: impl Into<String>, text: impl Into<String>) -> SourceId {
-        self.push(name.into(), text.into(), false)
+        self.push(name.into(), (text.into(), false), false)
     }
 
     /// Adds a user's file from bytes of any encoding.
@@ -85,7 +87,7 @@ impl Sources {
 
     /// Adds a library file.
     pub fn add_library(&mut self, name: impl Into<String>, text: impl Into<String>) -> SourceId {
-        self.push(name.into(), text.into(), true)
+        self.push(name.into(), (text.into(), false), true)
     }
 
     /// Adds a library file from bytes of any encoding.
@@ -93,9 +95,9 @@ impl Sources {
         self.push(name.into(), decode(bytes), true)
     }
 
-    fn push(&mut self, name: String, text: String, library: bool) -> SourceId {
+    fn push(&mut self, name: String, (text, latin1): (String, bool), library: bool) -> SourceId {
         let line_starts = std::iter::once(0).chain(line_ends(&text)).collect();
-        self.files.push(Source { name, text, library, profile: Profile::Std, line_starts })
+        self.files.push(Source { name, text, library, latin1, profile: Profile::Std, line_starts })
     }
 
     /// Says which dialect a file is written in; [`Profile::Std`] until then.
@@ -155,12 +157,12 @@ fn line_ends(text: &str) -> impl Iterator<Item = u32> + '_ {
     })
 }
 
-fn decode(bytes: Vec<u8>) -> String {
-    let text = match String::from_utf8(bytes) {
-        Ok(text) => text,
-        Err(e) => e.as_bytes().iter().map(|&b| b as char).collect(),
-    };
-    text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text)
+/// The text, and whether it had to be read as Latin-1.
+fn decode(bytes: Vec<u8>) -> (String, bool) {
+    match String::from_utf8(bytes) {
+        Ok(text) => (text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text), false),
+        Err(e) => (e.as_bytes().iter().map(|&b| b as char).collect(), true),
+    }
 }
 
 #[cfg(test)]
@@ -183,6 +185,8 @@ mod tests {
     fn bytes_that_are_not_utf8_are_latin1() {
         let mut s = Sources::new();
         let id = s.add_bytes("a.st", vec![b'a', 0xE4]);
-        assert_eq!(s.get(id).text, "aä");
+        assert_eq!((s.get(id).text.as_str(), s.get(id).latin1), ("aä", true));
+        let utf8 = s.add_bytes("b.st", "\u{feff}aä".into());
+        assert_eq!((s.get(utf8).text.as_str(), s.get(utf8).latin1), ("aä", false));
     }
 }

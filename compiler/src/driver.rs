@@ -93,6 +93,10 @@ fn sources(files: &[File]) -> Sources {
     for (name, text) in takt_stdlib::SOURCES {
         sources.add_library(*name, *text);
     }
+    let (name, text, profile) = takt_stdlib::PRELUDE;
+    if files.iter().any(|f| f.profile == profile) {
+        sources.add_library(name, text);
+    }
     for file in files {
         let id = match file.library {
             true => sources.add_library_bytes(&file.name, file.bytes.clone()),

@@ -6,7 +6,7 @@ use crate::encode::{ENVELOPE, ImageError, MAGIC, NO_RESULT, SCALARS, SECTIONS, T
 use crate::image::{Chunk, Function, Image, LineSite, Place, Program, Symbol, Task, TrapSite};
 use crate::memory::MemoryMap;
 use crate::natives::{NativeImport, NativeKind, Scalar};
-use crate::types::{Dim, Field, Record, Type, TypeId, TypeTable};
+use crate::types::{Dim, Field, PointerKind, Record, Type, TypeId, TypeTable};
 use takt_base::Nanos;
 
 type Read<T> = Result<T, ImageError>;
@@ -145,6 +145,10 @@ impl<'a> Reader<'a> {
             6 => Type::Struct(self.record(value)?),
             7 => Type::Instance(self.record(value)?),
             8 => Type::Reference { target: TypeId(value) },
+            9 => {
+                let number = self.u32()? as usize;
+                Type::Pointer { target: TypeId(value), kind: self.choice(number, PointerKind::ALL, "kind of pointer")? }
+            }
             _ => return Err(ImageError::new(format!("there is no kind of type with the number {tag}"))),
         })
     }

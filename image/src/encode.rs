@@ -163,6 +163,10 @@ impl Writer {
             Type::Struct(r) => self.record(6, r),
             Type::Instance(r) => self.record(7, r),
             Type::Reference { target } => self.tagged(8, target.0),
+            Type::Pointer { target, kind } => {
+                self.tagged(9, target.0);
+                self.u32(*kind as u32);
+            }
         }
     }
 

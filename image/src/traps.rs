@@ -39,6 +39,7 @@ traps! {
     Memory = 9 MemoryFault;
     ForStep = 10 ForStepFault;
     NullReference = 11 NullReference;
+    WildPointer = 12 WildPointer;
 }
 
 /// A trap with its place. Small and `Copy`: it is made on the cyclic side. `image.files`, `image.functions` give the names.

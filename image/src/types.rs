@@ -64,6 +64,37 @@ pub enum Type {
         /// What it refers to.
         target: TypeId,
     },
+    /// A variable that holds the place of another: a 32-bit offset into the resource memory, 0 for NULL. Code checks it at every use.
+    Pointer {
+        /// What it points to.
+        target: TypeId,
+        /// How it was declared.
+        kind: PointerKind,
+    },
+}
+
+/// How the place of a variable is held.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub enum PointerKind {
+    /// `REF_TO T`: always NULL or a variable of type T.
+    RefTo,
+    /// `POINTER TO T` (vendor): any number.
+    Pointer,
+    /// `REFERENCE TO T` (vendor): another name for a variable.
+    Reference,
+}
+
+impl PointerKind {
+    /// All kinds.
+    pub const ALL: &'static [PointerKind] = &[PointerKind::RefTo, PointerKind::Pointer, PointerKind::Reference];
+    /// As the user writes it.
+    pub const fn text(self) -> &'static str {
+        match self {
+            PointerKind::RefTo => "REF_TO",
+            PointerKind::Pointer => "POINTER TO",
+            PointerKind::Reference => "REFERENCE TO",
+        }
+    }
 }
 
 /// Inclusive bounds of an array dimension.
@@ -207,7 +238,7 @@ impl TypeTable {
                 Layout::of(e.size.saturating_mul(count), e.align)
             }
             Type::Struct(r) | Type::Instance(r) => Layout::of(r.size, r.align),
-            Type::Reference { .. } => Layout::of(4, 4),
+            Type::Reference { .. } | Type::Pointer { .. } => Layout::of(4, 4),
         }
     }
 
@@ -238,6 +269,7 @@ impl TypeTable {
             }
             Type::Struct(r) | Type::Instance(r) => r.name.clone(),
             Type::Reference { target } => self.display(*target),
+            Type::Pointer { target, kind } => format!("{} {}", kind.text(), self.display(*target)),
         }
     }
 
@@ -245,7 +277,7 @@ impl TypeTable {
     pub fn storage(&self, id: TypeId) -> Option<Elementary> {
         match self.get(id) {
             Type::Elementary(e) | Type::Subrange { base: e, .. } | Type::Enum { base: e, .. } => Some(*e),
-            Type::Reference { .. } => Some(Elementary::Udint),
+            Type::Reference { .. } | Type::Pointer { .. } => Some(Elementary::Udint),
             _ => None,
         }
     }

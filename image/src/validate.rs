@@ -71,7 +71,7 @@ fn well_formed(table: &TypeTable, ty: &Type) -> Check {
             known(*element)
         }
         Type::Struct(r) | Type::Instance(r) => r.fields.iter().try_for_each(|f| known(f.ty)),
-        Type::Reference { target } => known(*target),
+        Type::Reference { target } | Type::Pointer { target, .. } => known(*target),
     }
 }
 
@@ -114,7 +114,7 @@ impl<'a> Walk<'a> {
                 Ok((below, dims.iter().fold(values, |n, d| n.saturating_mul(d.len() as u64))))
             }
             Type::Struct(r) | Type::Instance(r) if self.contents => self.record(r, depth),
-            Type::Reference { target } if !self.contents => self.visit(*target, depth + 1),
+            Type::Reference { target } | Type::Pointer { target, .. } if !self.contents => self.visit(*target, depth + 1),
             _ => Ok((0, 1)),
         }
     }

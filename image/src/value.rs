@@ -87,7 +87,9 @@ fn declared(types: &TypeTable, memory: &[u8], offset: u32, id: TypeId) -> Option
                 |f: &crate::types::Field| Some((f.name.clone(), declared(types, memory, offset.checked_add(f.offset)?, f.ty)?));
             shown.map(member).collect::<Option<_>>().map(Value::Struct)
         }
-        Type::Reference { .. } => Some(Value::Reference(u32::from_le_bytes(bytes(memory, offset, 4)?.try_into().ok()?))),
+        Type::Reference { .. } | Type::Pointer { .. } => {
+            Some(Value::Reference(u32::from_le_bytes(bytes(memory, offset, 4)?.try_into().ok()?)))
+        }
     }
 }
 
@@ -164,6 +166,7 @@ impl std::fmt::Display for Value {
                 let members: Vec<_> = members.iter().map(|(name, v)| format!("{name} := {v}")).collect();
                 write!(f, "({})", members.join(", "))
             }
+            Value::Reference(0) => f.write_str("NULL"),
             Value::Reference(offset) => write!(f, "16#{offset:08X}"),
         }
     }

@@ -8,6 +8,9 @@ pub mod natives;
 pub use lookup::{ConversionType, Found, lookup};
 pub use natives::{Library, native_conversion, native_signature};
 
+/// Declarations that only some projects need: file name and contents, and the profile of a file that brings them in.
+pub const PRELUDE: (&str, &str, takt_base::Profile) = ("oscat.st", include_str!("../st/oscat.st"), takt_base::Profile::Codesys2);
+
 macro_rules! sources {
     ($($file:literal)*) => {
         /// Function blocks and procedures as ST text: file name and contents. The compiler parses them before the user's files.

@@ -34,7 +34,11 @@ pub fn compile_st(text: &str) -> Compilation {
 
 /// Compiles one file of a profile.
 pub fn compile_in(profile: Profile, text: &str) -> Compilation {
-    let file = File { name: "test.st".into(), bytes: text.into(), library: false, profile };
+    compile_bytes(profile, text.into())
+}
+
+fn compile_bytes(profile: Profile, bytes: Vec<u8>) -> Compilation {
+    let file = File { name: "test.st".into(), bytes, library: false, profile };
     compile(Project { name: "test".into(), files: vec![file], attachments: vec![], interval: None, native: true })
 }
 
@@ -56,7 +60,16 @@ impl Plc {
 
     /// The same for a file of another profile.
     pub fn load_in(profile: Profile, text: &str) -> Result<Self, String> {
-        let c = compile_in(profile, text);
+        Self::load_bytes(profile, text.into())
+    }
+
+    /// Compiles and loads a file of any encoding; panics with the messages if it has errors.
+    pub fn from_bytes(profile: Profile, bytes: Vec<u8>) -> Self {
+        Self::load_bytes(profile, bytes).unwrap_or_else(|messages| panic!("{messages}"))
+    }
+
+    fn load_bytes(profile: Profile, bytes: Vec<u8>) -> Result<Self, String> {
+        let c = compile_bytes(profile, bytes);
         let errors = c.diags.iter().filter(|d| d.severity == Severity::Error);
         let messages: Vec<_> = errors.map(|d| render(d, &c.sources)).collect();
         let (Some(image), Some(module)) = (c.image, c.module) else { return Err(messages.join("\n")) };

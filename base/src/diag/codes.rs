@@ -89,6 +89,8 @@ codes! {
     P2014 NotAVariable "a variable is needed here";
     P2015 RecursiveType "a type can't contain itself";
     P2016 TypeTooLarge "this type or program needs more memory than there is";
+    P2017 NotReferable "this has no place that a reference may keep";
+    P2018 NotAReference "only a reference can be dereferenced";
     P2030 NotABase "this can't be extended or implemented here";
     P2031 InheritanceCycle "a type can't inherit from itself";
     P2032 AbstractInstance "an abstract type has no instances";
@@ -108,6 +110,7 @@ codes! {
     P3011 AddressMismatch "the type does not fit the direct address";
     P3012 ResultNeverAssigned "the function never assigns its result" Warning;
     P3013 WriteToInputImage "the input image can't be written";
+    P3015 ReferenceKept "a reference can't be retained or located";
     P3014 RetainNotKept "retained values are not kept over a restart by this version" Warning;
     P3040 MissingMethod "a method that the type promises is missing";
     P3041 SignatureMismatch "the method differs from the one that it replaces";
@@ -180,6 +183,7 @@ codes! {
     F0709 MemoryFault "the program touched memory that is not its own";
     F0710 ForStepFault "a FOR step of zero";
     F0711 NullReference "a NULL reference was used";
+    F0712 WildPointer "a pointer does not point to a variable";
 }
 
 impl Code {

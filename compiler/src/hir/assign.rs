@@ -21,7 +21,7 @@ impl Builder<'_> {
         self.check_write(&target, e.span).then_some(target.place)
     }
 
-    fn check_write(&mut self, target: &Target, span: Span) -> bool {
+    pub(super) fn check_write(&mut self, target: &Target, span: Span) -> bool {
         let diag = match target.access {
             Access::Write => return self.check_control(&target.place, span),
             Access::Constant(at) => Diag::new(Code::AssignToConstant, span, "a constant").also(at, "declared CONSTANT"),
@@ -57,8 +57,10 @@ impl Builder<'_> {
         let Base::Var(id) = place.base else { return true };
         if self.scope.controls.contains(&id) {
             let help = "the loop counts by itself; use WHILE to step freely";
-            self.report(Diag::new(Code::ForVariable, span, "controls the loop around this statement").help(help));
-            return false;
+            let diag = Diag::new(Code::ForVariable, span, "controls the loop around this statement").help(help);
+            let vendor = self.profile(span).is_vendor();
+            self.report(if vendor { diag.severity(Severity::Warning) } else { diag });
+            return vendor;
         }
         if let Some(pou) = self.scope.pou {
             self.objects.written.insert((pou, id));

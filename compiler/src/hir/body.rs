@@ -40,7 +40,9 @@ pub(super) fn addresses<'t>(body: &'t [ast::Stmt], on: &mut dyn FnMut(&'t ast::A
     while let Some(stmt) = todo.pop() {
         let mut exprs: Vec<&ast::Expr> = Vec::new();
         match &stmt.kind {
-            StmtKind::Assign { target, value } | StmtKind::Attempt { target, value } => exprs.extend([target, value]),
+            StmtKind::Assign { target, value } | StmtKind::Attempt { target, value } | StmtKind::Bind { target, value } => {
+                exprs.extend([target, value])
+            }
             StmtKind::Chain { targets, value } => exprs.extend(targets.iter().map(|t| &t.0).chain([value])),
             StmtKind::Call(e) => exprs.push(e),
             StmtKind::If { branches, otherwise } => {
@@ -73,7 +75,7 @@ pub(super) fn expression_addresses<'t>(mut todo: Vec<&'t ast::Expr>, on: &mut dy
     while let Some(e) = todo.pop() {
         match &e.kind {
             ExprKind::Direct(a) => on(a),
-            ExprKind::Unary(_, a) | ExprKind::Member(a, _) | ExprKind::Part { base: a, .. } => todo.push(a),
+            ExprKind::Unary(_, a) | ExprKind::Deref(a) | ExprKind::Member(a, _) | ExprKind::Part { base: a, .. } => todo.push(a),
             ExprKind::Binary(_, a, b) => todo.extend([&**a, &**b]),
             ExprKind::Index(a, list) => todo.extend(list.iter().chain([&**a])),
             ExprKind::Call { callee, args } => todo.extend(args.iter().filter_map(arg_expr).chain([&**callee])),

@@ -33,6 +33,10 @@ pub(super) struct Builder<'a> {
     pub image: ImagePlan,
     /// Who calls whom, and where. `None`: the connections of a program in the configuration.
     pub calls: Vec<(Option<PouId>, PouId, Span)>,
+    /// Only the place of a variable is wanted, which may be that of a global whose value is being resolved.
+    pub place_only: bool,
+    /// Values that the conversion in progress cuts: where, from what, to what.
+    pub narrowings: Vec<(Span, TypeId, TypeId)>,
     /// Types with their methods and heritage.
     pub objects: super::objects::Table,
     leaves: usize,
@@ -57,6 +61,8 @@ impl<'a> Builder<'a> {
             global_enums: Vec::new(),
             image: ImagePlan::default(),
             calls: Vec::new(),
+            place_only: false,
+            narrowings: Vec::new(),
             objects: super::objects::Table::default(),
             leaves: 0,
             depth: 0,

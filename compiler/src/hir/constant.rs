@@ -9,7 +9,7 @@ use takt_image::Elementary;
 pub(super) fn is_zero(c: &Const) -> bool {
     match c {
         Const::Zero | Const::Int(0) => true,
-        Const::Int(_) => false,
+        Const::Int(_) | Const::Address(..) => false,
         Const::Real(r) => r.to_bits() == 0,
         Const::String(s) => s.is_empty(),
         Const::WString(s) => s.is_empty(),

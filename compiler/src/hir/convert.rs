@@ -3,10 +3,12 @@
 
 use super::builder::Builder;
 use super::constant;
+use super::lattice::{self, Fit};
 use super::model::*;
-use takt_base::{Code, Diag, Span};
-use takt_image::types::Type;
+use takt_base::{Code, Diag, Severity, Span};
+use takt_image::types::{PointerKind, Type};
 use takt_image::{Elementary, TypeId};
+use takt_stdlib::ConversionType;
 
 /// How much freedom an expression's type has.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -63,8 +65,12 @@ impl Builder<'_> {
     /// Like [`Self::fit`]; the note says what wants the type.
     pub fn fit_for(&mut self, o: Operand, to: TypeId, note: Option<(Span, String)>) -> Expr {
         let (span, ty, flex) = (o.expr.span, o.expr.ty, o.flex);
+        self.narrowings.clear();
         match self.convert(o, to) {
-            Ok(e) => e,
+            Ok(e) => {
+                self.warn_narrowed();
+                e
+            }
             Err(why) => {
                 let diag = self.misfit(why, span, ty, flex, to);
                 let diag = note.into_iter().fold(diag, |d, (at, text)| d.also(at, text));
@@ -72,6 +78,24 @@ impl Builder<'_> {
                 self.bad(span).expr
             }
         }
+    }
+
+    /// Reports what the last conversion has cut (vendor).
+    fn warn_narrowed(&mut self) {
+        for (span, from, to) in std::mem::take(&mut self.narrowings) {
+            let label = format!("{}, narrowed to {}", self.show(from), self.show(to));
+            let diag = Diag::new(Code::Narrowing, span, label).severity(Severity::Warning);
+            self.report(
+                diag.message("a value is narrowed without a conversion")
+                    .help("convert it with a function to say that this is meant"),
+            );
+        }
+    }
+
+    /// A duration as its milliseconds, or back (vendor): as the conversion function does it.
+    fn duration_or_number(&mut self, e: Expr, to: Elementary) -> Expr {
+        let from = self.elementary(e.ty).unwrap_or(to);
+        self.convert_to(e, ConversionType::Elementary(from), ConversionType::Elementary(to), false)
     }
 
     /// True if the operand can become a `to` without a report.
@@ -183,12 +207,16 @@ impl Builder<'_> {
             return Ok(constant_expr(Const::Real(real), to, e.span));
         }
         // A decimal number is not a pattern of bits in profile std; 0 and 1 are BOOL.
-        if target.is_bit() && target != Elementary::Bool && !based {
+        let vendor = self.profile(e.span).is_vendor();
+        if target.is_bit() && target != Elementary::Bool && !based && !vendor {
             return Err(Misfit::DecimalBits);
         }
         if !(target.is_int() || target.is_bit()) {
             return Err(Misfit::Type);
         }
+        // A based number may fill the whole width of a signed type: 16#FFFF is -1 (vendor).
+        let fills = vendor && based && value >= 0 && value < 1 << target.bits();
+        let value = if fills { constant::low_bits(value, target) } else { value };
         let value = constant::checked(target, value).map_err(|_| Misfit::Range)?;
         Ok(constant_expr(value, to, e.span))
     }
@@ -198,6 +226,7 @@ impl Builder<'_> {
         match self.ty(ty) {
             Type::Elementary(e) => Some(*e),
             Type::Enum { base, .. } if self.named_values.contains(&ty) => Some(*base),
+            Type::Pointer { kind: PointerKind::Pointer, .. } => Some(Elementary::Udint),
             _ => None,
         }
     }
@@ -243,13 +272,21 @@ impl Builder<'_> {
         if let Some(e) = self.to_interface(&o.expr, to) {
             return Ok(e);
         }
+        if self.pointee(o.expr.ty).is_some() || self.pointee(to).is_some() {
+            return self.convert_pointer(&o.expr, to).ok_or(Misfit::Type);
+        }
         if let Some(e) = self.widen_text(&o.expr, to)? {
             return Ok(e);
         }
         let o = self.decay(o);
         let (Some(from), Some(target)) = (self.elementary(o.expr.ty), self.number_of(to)) else { return Err(Misfit::Type) };
-        if !from.widens_to(target) {
-            return Err(Misfit::Type);
+        match lattice::fit(self.profile(o.expr.span), from, target) {
+            Fit::Whole => {}
+            Fit::Narrowed if self.is_made_of(&o.expr, target) => {}
+            Fit::Narrowed => self.narrowings.push((o.expr.span, o.expr.ty, to)),
+            Fit::Duration => return Ok(self.duration_or_number(o.expr, target)),
+            Fit::No if self.profile(o.expr.span).is_vendor() && self.is_made_of(&o.expr, target) => {}
+            Fit::No => return Err(Misfit::Type),
         }
         let how = match (from.is_real(), target.is_real()) {
             (true, true) => Conversion::Real,

@@ -48,6 +48,7 @@ impl Builder<'_> {
             self.error(Code::SectionNotAllowed, decl.span, "an edge is detected at inputs of function blocks and programs");
         }
         self.hir.globals[id].ty = used.ty;
+        self.check_kept_reference(used.ty, self.hir.globals[id].retain, decl.at.is_some(), decl.ty.span);
         let init = decl.init.as_ref().map_or_else(|| used.default.clone(), |i| self.initial(i, &used));
         let span = self.hir.globals[id].span;
         self.check_constant_instance(self.hir.globals[id].constant, used.ty, span);

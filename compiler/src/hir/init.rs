@@ -61,6 +61,9 @@ impl Builder<'_> {
     fn initial_scalar(&mut self, e: &ast::Expr, ty: TypeId) -> Const {
         let o: Operand = self.operand(e, Some(ty));
         let value = self.fit(o, ty);
+        if let Some(address) = self.constant_address(&value) {
+            return address;
+        }
         match value.kind {
             _ if value.ty == self.error => Const::Zero,
             ExprKind::Const(c) => constant::normal(c),

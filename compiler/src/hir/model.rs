@@ -192,6 +192,8 @@ pub enum Const {
     WString(Vec<u16>),
     /// Elements of an array in memory order, or fields of a record in order.
     Aggregate(Vec<Const>),
+    /// The place of a global variable, and bytes behind its start: value of a reference.
+    Address(GlobalId, u32),
     /// All bytes zero, whatever the type, alone or as a part: cheap form of a large default.
     Zero,
 }
@@ -277,6 +279,8 @@ pub struct Expr {
 pub enum ExprKind {
     Const(Const),
     Load(Place),
+    /// The place of a variable, as the value of a reference or pointer.
+    Address(Place),
     Neg(Box<Expr>),
     Not(Box<Expr>),
     /// Operands have one type (`shift` amounts and TIME * number excepted, which are intrinsics or conversions). Comparisons give
@@ -391,7 +395,7 @@ pub struct Place {
 }
 
 /// Start of a place.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 pub enum Base {
     /// Variable of the running unit; a VAR_IN_OUT means what it refers to.
     Var(VarId),
@@ -400,11 +404,15 @@ pub enum Base {
     Global(GlobalId),
     /// Direct address.
     Image(ImagePlace),
+    /// The value of a reference that is no variable; the first step is `Deref`.
+    Value(Box<Expr>),
 }
 
 /// A step along a place.
 #[derive(Clone, Debug)]
 pub enum Step {
+    /// What the reference or pointer there refers to; NULL and what is no variable trap.
+    Deref,
     /// Field of a structure or instance, by index.
     Field(u32),
     /// Element of an array: one expression per dimension, DINT or LINT; out of bounds traps (Index).

@@ -61,6 +61,7 @@ impl Builder<'_> {
     /// The value of a CONSTANT or a part of it.
     pub fn constant_at(&self, place: &Place) -> Option<Const> {
         let mut value = match place.base {
+            Base::Value(_) => return None,
             Base::Global(id) => Some(&self.hir.globals[id]).filter(|g| g.constant).map(|g| &g.init)?,
             Base::Var(id) => {
                 let constant = self.scope.read_only.get(&id) == Some(&ReadOnly::Constant);
@@ -69,7 +70,7 @@ impl Builder<'_> {
             Base::This => return self.member_constant(place),
             Base::Image(_) => return None,
         };
-        let mut ty = self.base_type(place.base)?;
+        let mut ty = self.base_type(&place.base)?;
         for step in &place.path {
             let (index, next) = self.step_into(ty, step)?;
             ty = next;
@@ -82,17 +83,17 @@ impl Builder<'_> {
         Some(value.clone())
     }
 
-    fn base_type(&self, base: Base) -> Option<TypeId> {
-        match base {
+    fn base_type(&self, base: &Base) -> Option<TypeId> {
+        match *base {
             Base::Global(id) => Some(self.hir.globals[id].ty),
             Base::Var(id) => Some(self.hir.pous[self.scope.pou?].vars[id].ty),
             Base::This => self.hir.pous[self.own_type()?].instance,
-            Base::Image(_) => None,
+            Base::Image(_) | Base::Value(_) => None,
         }
     }
 
     /// Position of the part in its whole, and its type.
-    pub(super) fn step_into(&self, ty: TypeId, step: &Step) -> Option<(usize, TypeId)> {
+    pub fn step_into(&self, ty: TypeId, step: &Step) -> Option<(usize, TypeId)> {
         match (step, self.ty(ty)) {
             (Step::Field(i), Type::Struct(r) | Type::Instance(r)) => Some((*i as usize, r.fields.get(*i as usize)?.ty)),
             (Step::Index(list), Type::Array { element, dims }) => {
@@ -110,6 +111,12 @@ impl Builder<'_> {
 
     /// The place that stands there; `None` if it is none and that has been reported.
     pub fn place(&mut self, e: &ast::Expr) -> Option<Target> {
+        let target = self.raw_place(e)?;
+        Some(self.through_references(target))
+    }
+
+    /// Like [`Self::place`], but a REFERENCE TO is the variable that holds it.
+    pub fn raw_place(&mut self, e: &ast::Expr) -> Option<Target> {
         self.deeper(e.span, |b| b.place_kind(e)).flatten()
     }
 
@@ -121,6 +128,7 @@ impl Builder<'_> {
                 let base = self.place(base)?;
                 self.member(base, name, e.span)
             }
+            ast::ExprKind::Deref(base) => self.deref(base, e.span),
             ast::ExprKind::Index(..) => self.indexed(e),
             ast::ExprKind::Part { base, size, index } => {
                 let base = self.place(base)?;
@@ -149,7 +157,7 @@ impl Builder<'_> {
                 }
             },
         };
-        if !self.ensure_global(id) {
+        if !self.ensure_global(id) && !(self.place_only && self.hir.globals[id].ty != self.error) {
             let label = format!("the value of `{}` depends on itself", n.text);
             self.error(Code::NotConstant, n.span, label);
             return None;
@@ -207,7 +215,9 @@ impl Builder<'_> {
             Type::Instance(r) => (r, true),
             _ => {
                 let label = format!("{} has no members", self.show(base.place.ty));
-                self.error(Code::UnknownMember, name.span, label);
+                let diag = Diag::new(Code::UnknownMember, name.span, label);
+                let pointer = self.pointee(base.place.ty).is_some();
+                self.report(if pointer { diag.help(format!("write ^.{}", name.text)) } else { diag });
                 return None;
             }
         };
@@ -254,7 +264,15 @@ impl Builder<'_> {
             if target.place.ty == self.error {
                 return None;
             }
+            target = self.through_references(target);
             let (step, ty, used) = match self.ty(target.place.ty) {
+                Type::Pointer { .. } => {
+                    self.codesys_form(e.span, "an index behind a pointer");
+                    let index = self.index(rest[0], i32::MIN.into(), i32::MAX.into())?;
+                    target = self.pointer_element(target, index, e.span)?;
+                    rest = &rest[1..];
+                    continue;
+                }
                 Type::Array { element, dims } => {
                     let (element, dims) = (*element, dims.clone());
                     (self.element(&dims, rest, e.span)?, element, dims.len())
@@ -291,18 +309,20 @@ impl Builder<'_> {
 
     /// A subscript as DINT or LINT.
     fn index(&mut self, e: &ast::Expr, low: i128, high: i128) -> Option<Expr> {
+        let place_only = std::mem::take(&mut self.place_only);
         let o = self.operand(e, None);
+        self.place_only = place_only;
         let o = self.decay(o);
         if self.is_bad(&o) {
             return None;
         }
         let o = self.settle(o);
-        let Some(kind) = self.elementary(o.ty).filter(|k| k.is_int()) else {
+        let Some(kind) = self.elementary(o.ty).filter(|k| self.counts(*k, o.span)) else {
             let label = format!("{}, an integer wanted", self.show(o.ty));
             self.report(Diag::new(Code::TypeMismatch, e.span, label).help("an index is an integer"));
             return None;
         };
-        let wide = kind.widens_to(Elementary::Dint);
+        let wide = kind.bits() < 32 || kind.widens_to(Elementary::Dint);
         let to = self.elem(if wide { Elementary::Dint } else { Elementary::Lint });
         if let ExprKind::Const(c) = &o.kind
             && let Some(value) = constant::int(c)
@@ -316,12 +336,16 @@ impl Builder<'_> {
         Some(if o.ty == to { o } else { self.wrap(Conversion::Integer, o, to) })
     }
 
+    fn elementary_or_base(&self, ty: TypeId) -> Option<Elementary> {
+        self.hir.types.storage(ty).filter(|_| self.pointee(ty).is_none())
+    }
+
     /// `w.3`, `d.%B1`.
     fn part(&mut self, base: Target, size: ast::AddressSize, index: u32, span: Span) -> Option<Target> {
         if base.place.ty == self.error {
             return None;
         }
-        let whole = self.hir.types.storage(base.place.ty).filter(|e| e.is_bit() && *e != Elementary::Bool);
+        let whole = self.elementary_or_base(base.place.ty).filter(|e| e.is_bit() && *e != Elementary::Bool);
         let Some(whole) = whole.filter(|_| !ends_in_part(&base.place)) else {
             let help = "convert an integer to a bit string first, for example with INT_TO_WORD";
             let label = format!("{} has no bits to name", self.show(base.place.ty));

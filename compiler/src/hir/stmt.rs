@@ -26,6 +26,7 @@ impl Builder<'_> {
         let kind = match &s.kind {
             ast::StmtKind::Assign { target, value } => self.assign(target, value)?,
             ast::StmtKind::Attempt { target, value } => self.attempt(target, value)?,
+            ast::StmtKind::Bind { target, value } => self.bind(target, value, s.span)?,
             ast::StmtKind::Call(e) => self.call_statement(e)?,
             ast::StmtKind::If { branches, otherwise } => {
                 let branches = branches.iter().map(|(c, body)| (self.condition(c), self.statements(body))).collect();
@@ -86,10 +87,13 @@ impl Builder<'_> {
             Some(e) => self.step(e, ty),
             None => super::convert::constant_expr(Const::Int(1), ty, span),
         };
-        let Base::Var(id) = place.base else { return None };
-        self.scope.controls.push(id);
+        let own = match place.base {
+            Base::Var(id) if place.path.is_empty() => Some(id),
+            _ => None,
+        };
+        self.scope.controls.extend(own);
         let body = self.loop_body(body);
-        self.scope.controls.pop();
+        self.scope.controls.truncate(self.scope.controls.len() - own.iter().count());
         Some(StmtKind::For { variable: place, from, to, by, body })
     }
 
@@ -107,7 +111,8 @@ impl Builder<'_> {
                 return None;
             }
         };
-        if !matches!(place.base, Base::Var(_)) || !place.path.is_empty() {
+        let own = matches!(place.base, Base::Var(_)) && place.path.is_empty();
+        if !own && !self.profile(e.span).is_codesys() {
             let help = "count in a variable of this unit and copy it";
             self.report(Diag::new(Code::ForVariable, e.span, "not a variable of this unit").help(help));
             return None;

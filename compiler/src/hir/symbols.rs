@@ -8,6 +8,7 @@ use crate::syntax::ast;
 use std::collections::{HashMap, HashSet};
 use takt_base::index::IndexVec;
 use takt_base::{Code, Diag, Severity, SourceId, Span};
+use takt_image::{Elementary, TypeId};
 
 /// How far a declaration has got.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -22,6 +23,8 @@ pub(super) struct TypeEntry<'a> {
     pub decl: &'a ast::TypeDecl,
     pub state: State,
     pub result: Option<TypeUse>,
+    /// Id of a structure that is referred to before it is resolved.
+    pub reserved: Option<TypeId>,
 }
 
 /// A declared unit.
@@ -29,6 +32,8 @@ pub(super) struct PouEntry<'a> {
     pub decl: &'a ast::Pou,
     pub library: bool,
     pub state: State,
+    /// Id of an instance that is referred to before it is resolved.
+    pub reserved: Option<TypeId>,
     /// Names of the unit, between declaration and body.
     pub scope: Scope,
 }
@@ -60,27 +65,46 @@ pub(super) struct Symbols<'a> {
     pub configurations: Vec<&'a ast::Configuration>,
 }
 
+/// Names of what is declared at file level.
+struct Names {
+    /// By the user's files.
+    user: HashSet<String>,
+    /// By all files.
+    all: HashSet<String>,
+}
+
+impl Names {
+    /// True for the name of a type that no file declares.
+    fn lacks(&self, ty: &ast::TypeRef) -> bool {
+        let ast::TypeRefKind::Named(name) = &ty.kind else { return false };
+        !self.all.contains(&name.key()) && Elementary::from_name(&name.text).is_none()
+    }
+}
+
 impl<'a> Builder<'a> {
     /// Collects all declarations. A user's declaration replaces a library's of the same name.
     pub fn collect(&mut self, files: &'a [(SourceId, ast::File)]) {
-        let mine = self.user_names(files);
+        let names = Names {
+            user: files
+                .iter()
+                .filter(|(id, _)| !self.sources.get(*id).library)
+                .flat_map(|(_, f)| &f.items)
+                .flat_map(item_names)
+                .collect(),
+            all: files.iter().flat_map(|(_, f)| &f.items).flat_map(item_names).collect(),
+        };
         for (source, file) in files {
             let library = self.sources.get(*source).library;
             for item in &file.items {
-                self.collect_item(item, *source, library, &mine);
+                self.collect_item(item, *source, library, &names);
             }
         }
         self.collect_configurations();
         self.number_classes();
     }
 
-    fn user_names(&self, files: &[(SourceId, ast::File)]) -> HashSet<String> {
-        let user = files.iter().filter(|(id, _)| !self.sources.get(*id).library);
-        user.flat_map(|(_, f)| &f.items).flat_map(item_names).collect()
-    }
-
-    fn collect_item(&mut self, item: &'a ast::Item, source: SourceId, library: bool, mine: &HashSet<String>) {
-        let replaced = |name: &ast::Name| library && mine.contains(&name.key());
+    fn collect_item(&mut self, item: &'a ast::Item, source: SourceId, library: bool, names: &Names) {
+        let replaced = |name: &ast::Name| library && names.user.contains(&name.key());
         match item {
             ast::Item::Types(decls) => {
                 for decl in decls.iter().filter(|d| !replaced(&d.name)) {
@@ -89,14 +113,17 @@ impl<'a> Builder<'a> {
             }
             ast::Item::Pou(decl) if !replaced(&decl.name) => self.collect_pou(decl, source, library),
             ast::Item::Pou(_) => {}
-            ast::Item::Globals(section) => self.collect_globals(section, library, &|key| library && mine.contains(key)),
+            ast::Item::Globals(section) => {
+                let left_out = |name: &ast::Name, ty: &ast::TypeRef| replaced(name) || library && names.lacks(ty);
+                self.collect_globals(section, library, &left_out);
+            }
             ast::Item::Configuration(c) => self.symbols.configurations.push(c),
         }
     }
 
     fn collect_type(&mut self, decl: &'a ast::TypeDecl) {
         let index = self.symbols.types.len();
-        self.symbols.types.push(TypeEntry { decl, state: State::Pending, result: None });
+        self.symbols.types.push(TypeEntry { decl, state: State::Pending, result: None, reserved: None });
         if self.unit_name(&decl.name, Unit::Type(index))
             && let ast::TypeBody::Enum(e) = &decl.body
         {
@@ -128,7 +155,8 @@ impl<'a> Builder<'a> {
             ast::PouKind::Interface => model::PouKind::Interface,
             ast::PouKind::Method => model::PouKind::Method,
         };
-        let id = self.symbols.pous.push(PouEntry { decl, library, state: State::Pending, scope: Scope::default() });
+        let id =
+            self.symbols.pous.push(PouEntry { decl, library, state: State::Pending, reserved: None, scope: Scope::default() });
         self.hir.pous.push(Pou {
             name: decl.name.text.clone(),
             kind,
@@ -169,10 +197,15 @@ impl<'a> Builder<'a> {
     }
 
     /// Enters the variables of a VAR_GLOBAL section.
-    pub fn collect_globals(&mut self, section: &'a ast::VarSection, library: bool, replaced: &dyn Fn(&str) -> bool) {
+    pub fn collect_globals(
+        &mut self,
+        section: &'a ast::VarSection,
+        library: bool,
+        left_out: &dyn Fn(&ast::Name, &ast::TypeRef) -> bool,
+    ) {
         for decl in &section.decls {
             let anonymous = decl.names.is_empty().then(|| decl.at.as_ref().map(super::image::name_of)).flatten();
-            for name in decl.names.iter().chain(anonymous.as_ref()).filter(|n| !replaced(&n.key())) {
+            for name in decl.names.iter().chain(anonymous.as_ref()).filter(|n| !left_out(n, &decl.ty)) {
                 self.collect_global(section, decl, name, library);
             }
         }
@@ -201,11 +234,11 @@ impl<'a> Builder<'a> {
     fn collect_configurations(&mut self) {
         for c in self.symbols.configurations.clone() {
             for section in &c.globals {
-                self.collect_globals(section, false, &|_| false);
+                self.collect_globals(section, false, &|_, _| false);
             }
             for section in c.resources.iter().flat_map(|r| &r.globals) {
                 self.hide_globals(section, c);
-                self.collect_globals(section, false, &|_| false);
+                self.collect_globals(section, false, &|_, _| false);
             }
         }
     }

@@ -44,7 +44,10 @@ impl Builder<'_> {
         if kind.is_called_by_value() {
             self.declare_result(id, decl);
         }
-        for section in &decl.sections {
+        // Constants first: bounds and lengths may use one that is declared further down.
+        let constant = |s: &&ast::VarSection| s.constant && matches!(s.kind, SectionKind::Var | SectionKind::External);
+        let sections = decl.sections.iter().filter(constant).chain(decl.sections.iter().filter(|s| !constant(s)));
+        for section in sections {
             self.check_section(decl, section);
             for d in &section.decls {
                 self.declare_vars(id, decl, section, d);
@@ -90,6 +93,7 @@ impl Builder<'_> {
         let used = self.type_ref(&d.ty);
         self.objects.abstract_allowed = outer;
         self.check_decl(pou, section, d, used.ty);
+        self.check_kept_reference(used.ty, section.retain == Some(true), d.at.is_some(), d.ty.span);
         let init = d.init.as_ref().map_or_else(|| used.default.clone(), |i| self.initial(i, &used));
         let used = TypeUse { default: init, ..used };
         let anonymous = d.names.is_empty().then(|| d.at.as_ref().map(super::image::name_of)).flatten();
@@ -206,7 +210,8 @@ impl Builder<'_> {
             members.push(Member { name, ty, section, retain, init });
         }
         let Some((record, default)) = self.record(decl.name.text.clone(), members, decl.name.span) else { return };
-        let ty = self.hir.types.add(Type::Instance(record));
+        let ty = self.reserved_instance(id);
+        self.hir.types.replace(ty, Type::Instance(record));
         self.defaults.insert(ty, default);
         self.hir.pous[id].instance = Some(ty);
         self.objects.types.insert(ty, id);

@@ -251,6 +251,11 @@ pub enum TypeRefKind {
         dims: Vec<(Expr, Expr)>,
         element: Box<TypeRef>,
     },
+    /// `REF_TO T`, `POINTER TO T`, `REFERENCE TO T`.
+    Pointer {
+        kind: takt_image::types::PointerKind,
+        target: Box<TypeRef>,
+    },
     /// Anonymous enumeration.
     Enum(EnumDecl),
     /// Anonymous structure (vendor).
@@ -351,6 +356,11 @@ pub enum StmtKind {
         target: Expr,
         value: Expr,
     },
+    /// `target REF= value` (vendor).
+    Bind {
+        target: Expr,
+        value: Expr,
+    },
     /// A call as a statement: the expression is always [`ExprKind::Call`].
     Call(Expr),
     /// IF and its ELSIFs, then ELSE.
@@ -447,6 +457,8 @@ pub enum ExprKind {
         callee: Box<Expr>,
         args: Vec<Arg>,
     },
+    /// `r^`.
+    Deref(Box<Expr>),
     /// NULL.
     Null,
     /// Something was wrong here and has been reported.

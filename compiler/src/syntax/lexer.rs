@@ -2,6 +2,7 @@
 //! White space and comments are dropped. Linear in the length of the text; no recursion.
 //! From: IEC 61131-3 §6.1 to §6.3 (language reference §1).
 
+use super::conditional::{Conditional, Mistake};
 use super::keyword::Kw;
 use super::report::Report;
 use logos::{Lexer, Logos};
@@ -152,7 +153,16 @@ const BYTE_ORDER_MARK: char = '\u{feff}';
 /// Splits the text; reports what is not closed and what is no token.
 pub(crate) fn lex(text: &str, source: SourceId, profile: Profile, report: &mut Report) -> Tokens {
     let nested = profile.nests_comments() || text.contains(NESTED_MARK);
-    let mut scan = Scan { logos: Tok::lexer(text), source, report, nested, external: Vec::new(), cut: false };
+    let mut scan = Scan {
+        logos: Tok::lexer(text),
+        source,
+        report,
+        nested,
+        external: Vec::new(),
+        conditional: Conditional::default(),
+        profile,
+        cut: false,
+    };
     if text.starts_with(BYTE_ORDER_MARK) {
         scan.logos.bump(BYTE_ORDER_MARK.len_utf8());
     }
@@ -166,14 +176,23 @@ pub(crate) fn lex(text: &str, source: SourceId, profile: Profile, report: &mut R
             Ok(kind) => Some(scan.finish(kind)),
             Err(()) => scan.unexpected(),
         };
-        let Some(kind) = kind else { continue };
+        let Some(kind) = kind.filter(|_| scan.conditional.is_active()) else { continue };
         let kw = if kind == Tok::Word { Kw::of(scan.logos.slice()) } else { Kw::None };
         let kw = if kw.is_new() && !profile.reserves_new_words() { Kw::None } else { kw };
         list.push(Token { kind, kw, start: start as u32, end: scan.logos.span().end as u32 });
+        if profile == Profile::Codesys2 && kind == Tok::Word && is_graphic_body(scan.logos.slice()) {
+            scan.skip_graphic_body();
+        }
     }
+    scan.close_conditional();
     let end = text.len() as u32;
     list.push(Token { kind: Tok::Eof, kw: Kw::None, start: end, end });
     Tokens { list, external: scan.external, cut: scan.cut }
+}
+
+/// The word that opens a graphical body in a CODESYS 2 export (language reference §17).
+pub(crate) fn is_graphic_body(word: &str) -> bool {
+    ["_FBD_BODY", "_LD_BODY", "_SFC_BODY", "_CFC_BODY"].iter().any(|w| w.eq_ignore_ascii_case(word))
 }
 
 struct Scan<'t, 'r, 's> {
@@ -183,6 +202,9 @@ struct Scan<'t, 'r, 's> {
     nested: bool,
     report: &'r mut Report<'s>,
     external: Vec<usize>,
+    /// `{IF ..}` of CODESYS; not followed in other profiles.
+    conditional: Conditional,
+    profile: Profile,
     cut: bool,
 }
 
@@ -197,6 +219,20 @@ impl Scan<'_, '_, '_> {
         let rest = self.logos.remainder().as_bytes();
         let n = (0..rest.len()).find(|&i| !rest[i].is_ascii() || !wanted(rest[i], rest.get(i + 1).copied()));
         self.logos.bump(n.unwrap_or(rest.len()));
+    }
+
+    /// To the line that ends the unit: what lies between is not in any textual language.
+    fn skip_graphic_body(&mut self) {
+        let rest = self.logos.remainder();
+        let ends = |line: &str| ["END_PROGRAM", "END_FUNCTION", "END_ACTION"].iter().any(|e| line.trim_start().starts_with(e));
+        let mut skipped = 0;
+        for line in rest.split_inclusive('\n') {
+            if ends(line) {
+                break;
+            }
+            skipped += line.len();
+        }
+        self.logos.bump(skipped);
     }
 
     fn finish(&mut self, kind: Tok) -> Tok {
@@ -337,11 +373,36 @@ impl Scan<'_, '_, '_> {
         self.logos.bump(n + close.len());
         if text.eq_ignore_ascii_case("external") {
             self.external.push(before);
+        } else if self.profile.is_codesys()
+            && let Some(followed) = self.conditional.follow(text)
+        {
+            self.check_conditional(followed);
         } else if let Some(what) = unsupported_pragma(text) {
             let diag = Diag::new(Code::NotSupportedYet, self.span(), "would change the program");
             self.report.push(diag.message(format!("{what} is not supported by this version")));
         }
         None
+    }
+
+    fn check_conditional(&mut self, followed: Result<(), Mistake>) {
+        let (label, help) = match followed {
+            Ok(()) => return,
+            Err(Mistake::Unopened) => ("no {IF} is open here", "open it with {IF defined(name)}"),
+            Err(Mistake::Condition) => {
+                ("this condition is not understood", "conditions are made of defined(name), NOT, AND, OR and parentheses")
+            }
+        };
+        let diag = Diag::new(Code::Expected, self.span(), label);
+        self.report.push(diag.message("conditional compilation goes wrong here").help(help));
+    }
+
+    /// Reports an `{IF}` without its end.
+    fn close_conditional(&mut self) {
+        if self.conditional.is_open() {
+            let end = self.logos.source().len();
+            let diag = Diag::new(Code::Expected, Span::new(self.source, end, end), "the file ends inside of an {IF}");
+            self.report.push(diag.message("expected {END_IF}").help("close it with {END_IF}"));
+        }
     }
 
     /// One message for a run of characters that start nothing.

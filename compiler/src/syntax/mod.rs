@@ -2,6 +2,7 @@
 //! From: IEC 61131-3 edition 3, §6 and §7.3; profile `std`, plus vendor forms that can't be mistaken for anything else.
 
 pub mod ast;
+mod conditional;
 mod keyword;
 mod lexer;
 mod literal;

@@ -22,7 +22,9 @@ pub(super) fn parse(types: &TypeTable, ty: VarType, text: &str) -> Parsed {
         Some(Type::Enum { name, base, values }) => enumerator(*base, name, values, text),
         Some(Type::String { capacity }) => string(*capacity, false, text),
         Some(Type::WString { capacity }) => string(*capacity, true, text),
-        Some(Type::Reference { .. }) | None => Err(AccessError::value("a reference can't be set from text")),
+        Some(Type::Reference { .. } | Type::Pointer { .. }) | None => {
+            Err(AccessError::value("a reference can't be set from text"))
+        }
         Some(_) => {
             let message = format!("{} has more than one value", types.display(id));
             Err(AccessError::value(message).help("set its members or elements one by one"))

@@ -5,6 +5,7 @@ use crate::hir::convert::Operand;
 use crate::hir::model::*;
 use crate::syntax::ast;
 use takt_base::{Code, Diag, Span};
+use takt_image::types::PointerKind;
 
 /// An argument for a parameter.
 #[derive(Clone, Copy)]
@@ -102,6 +103,9 @@ impl Builder<'_> {
     pub(in crate::hir) fn input(&mut self, id: PouId, var: VarId, e: &ast::Expr) -> Expr {
         let v = &self.hir.pous[id].vars[var];
         let (ty, note) = (v.ty, (v.span, format!("input `{}` is {}", v.name, self.show(v.ty))));
+        if matches!(self.pointee(ty), Some((_, PointerKind::Reference))) {
+            return self.bound_value(e, ty);
+        }
         let o = self.operand(e, Some(ty));
         self.fit_for(o, ty, Some(note))
     }

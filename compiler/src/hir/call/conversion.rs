@@ -78,7 +78,7 @@ impl Builder<'_> {
         self.bad(span)
     }
 
-    fn convert_to(&mut self, arg: Expr, from: ConversionType, to: ConversionType, truncate: bool) -> Expr {
+    pub(in crate::hir) fn convert_to(&mut self, arg: Expr, from: ConversionType, to: ConversionType, truncate: bool) -> Expr {
         let (span, source) = (arg.span, arg.ty);
         let ty = self.target_type(source, to);
         if from == to && source == ty {

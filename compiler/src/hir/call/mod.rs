@@ -48,6 +48,9 @@ impl Builder<'_> {
             }
             return self.bad_call(args, span);
         };
+        if let Some(o) = self.special_call(name, args, span) {
+            return o;
+        }
         if !self.names_function(name) {
             self.not_a_function(name);
             return self.bad_call(args, span);

@@ -140,6 +140,9 @@ impl Builder<'_> {
         if let (Some(op), None) = (operator, fixed) {
             return self.apply_operator(op, args, span, want);
         }
+        if let Some(shifted) = self.shift_of_integer(f, &args, span) {
+            return shifted;
+        }
         let Some(args) = self.fit_parameters(f, fixed, args, span, want) else { return self.bad(span) };
         if let Some(op) = operator {
             return self.apply_operator(op, args.into_iter().map(Operand::fixed).collect(), span, fixed);
@@ -147,6 +150,26 @@ impl Builder<'_> {
         let common = f.params.iter().zip(&args).find(|(p, _)| matches!(p.ty, Pattern::T(_))).map(|(_, a)| a.ty);
         let ty = self.result_type(f, common, &args, want);
         self.finish(f, args, ty, span)
+    }
+
+    /// SHL, SHR, ROL and ROR of an integer (vendor): of its bits, and an integer again. `None` if it is no such case.
+    fn shift_of_integer(&mut self, f: &Function, args: &[Operand], span: Span) -> Option<Operand> {
+        let shifts = [Intrinsic::Shl, Intrinsic::Shr, Intrinsic::Rol, Intrinsic::Ror].map(Lowering::Inline);
+        let (first, rest) = args.split_first().filter(|_| shifts.contains(&f.lowering) && self.profile(span).is_codesys())?;
+        let first = self.decay(first.clone());
+        let value = self.settle(first);
+        let integer = self.elementary(value.ty).filter(|e| e.is_int())?;
+        let bits = match integer.bits() {
+            8 => Elementary::Byte,
+            16 => Elementary::Word,
+            32 => Elementary::Dword,
+            _ => Elementary::Lword,
+        };
+        let (to, back) = (self.elem(bits), value.ty);
+        let value = Operand::fixed(self.wrap(Conversion::Integer, value, to));
+        let args = std::iter::once(value).chain(rest.iter().cloned()).collect();
+        let shifted = self.apply_function(f, None, args, span, None);
+        Some(if self.is_bad(&shifted) { shifted } else { Operand::fixed(self.wrap(Conversion::Integer, shifted.expr, back)) })
     }
 
     /// ADD(a, b, c) is a + b + c.
@@ -211,7 +234,7 @@ impl Builder<'_> {
         match (arg.flex, self.elementary(arg.expr.ty)) {
             (Flex::Int { .. }, _) => Some(self.fit(arg, lint)),
             (Flex::Real, _) if group != Generic::AnyInt => Some(self.fit(arg, lreal)),
-            (Flex::Fixed, Some(e)) if e.is_int() => Some(self.as_lint(arg.expr)),
+            (Flex::Fixed, Some(e)) if self.counts(e, arg.expr.span) => Some(self.as_lint(arg.expr)),
             (Flex::Fixed, Some(Elementary::Lreal)) if group != Generic::AnyInt => Some(arg.expr),
             (Flex::Fixed, Some(Elementary::Real)) if group != Generic::AnyInt => {
                 Some(self.wrap(Conversion::Real, arg.expr, lreal))

@@ -30,7 +30,7 @@ impl Builder<'_> {
     }
 
     /// An untyped integer constant.
-    pub(super) fn flex_int(&mut self, value: i128, based: bool, span: Span) -> Operand {
+    pub(in crate::hir) fn flex_int(&mut self, value: i128, based: bool, span: Span) -> Operand {
         let ty = self.default_int(value);
         Operand { expr: constant_expr(Const::Int(value), ty, span), flex: Flex::Int { based } }
     }

@@ -27,7 +27,7 @@ impl Builder<'_> {
 fn parts(e: &Expr) -> Vec<&Expr> {
     match &e.kind {
         ExprKind::Const(_) => vec![],
-        ExprKind::Load(place) => indices(place),
+        ExprKind::Load(place) | ExprKind::Address(place) => indices(place),
         ExprKind::Neg(a) | ExprKind::Not(a) | ExprKind::Convert(_, a) => vec![a],
         ExprKind::Binary(_, a, b) => vec![a, b],
         ExprKind::Call { args, .. } => args.iter().filter_map(|a| if let Arg::Value(e) = a { Some(e) } else { None }).collect(),
@@ -45,14 +45,15 @@ fn parts(e: &Expr) -> Vec<&Expr> {
 }
 
 fn indices(place: &Place) -> Vec<&Expr> {
-    place.path.iter().flat_map(step_indices).collect()
+    let base = if let Base::Value(e) = &place.base { Some(&**e) } else { None };
+    base.into_iter().chain(place.path.iter().flat_map(step_indices)).collect()
 }
 
 fn step_indices(step: &Step) -> Vec<&Expr> {
     match step {
         Step::Index(list) => list.iter().collect(),
         Step::Character(e) => vec![e.as_ref()],
-        Step::Field(_) | Step::Part { .. } => vec![],
+        Step::Deref | Step::Field(_) | Step::Part { .. } => vec![],
     }
 }
 
@@ -66,9 +67,9 @@ fn may_trap(e: &Expr) -> bool {
     let constant = |e: &Expr| matches!(e.kind, ExprKind::Const(_));
     let divisor_unsafe = |e: &Expr| !matches!(&e.kind, ExprKind::Const(c) if !constant::is_zero(c));
     let here = match &e.kind {
-        ExprKind::Load(place) => place.path.iter().any(|s| match s {
+        ExprKind::Load(place) | ExprKind::Address(place) => place.path.iter().any(|s| match s {
             Step::Index(list) => !list.iter().all(constant),
-            Step::Character(_) => true,
+            Step::Deref | Step::Character(_) => true,
             Step::Field(_) | Step::Part { .. } => false,
         }),
         ExprKind::Convert(Conversion::Subrange, _) | ExprKind::Native { .. } | ExprKind::Call { .. } => true,

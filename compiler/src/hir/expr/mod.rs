@@ -25,7 +25,7 @@ impl Builder<'_> {
 
     fn operand_kind(&mut self, e: &ast::Expr, want: Option<TypeId>) -> Operand {
         match &e.kind {
-            ast::ExprKind::Null => self.null(e.span),
+            ast::ExprKind::Null if want.is_none_or(|ty| self.type_unit(ty).is_some()) => self.object_null(e.span),
             ast::ExprKind::Name(_) | ast::ExprKind::Member(..) if self.may_be_property(e) => match self.property_read(e) {
                 Some(o) => o,
                 None => self.plain_operand(e, want),
@@ -44,10 +44,12 @@ impl Builder<'_> {
                 None => self.read(e),
             },
             ast::ExprKind::Direct(_) | ast::ExprKind::Index(..) | ast::ExprKind::Part { .. } => self.read(e),
+            ast::ExprKind::Deref(_) => self.read(e),
+            ast::ExprKind::Null => self.null(e.span, want),
             ast::ExprKind::Unary(op, a) => self.unary(*op, a, e.span, want),
             ast::ExprKind::Binary(op, a, b) => self.binary(*op, a, b, e.span, want),
             ast::ExprKind::Call { callee, args } => self.call(callee, args, e.span, want),
-            ast::ExprKind::Null | ast::ExprKind::Error => self.bad(e.span),
+            ast::ExprKind::Error => self.bad(e.span),
         }
     }
 
@@ -63,6 +65,9 @@ impl Builder<'_> {
         let o = self.operand(e, Some(bool));
         if self.is_bad(&o) || self.fits(&o, bool) {
             return self.fit(o, bool);
+        }
+        if let Some(truth) = self.truth_of(o.expr.clone()).filter(|_| o.flex == Flex::Fixed) {
+            return truth;
         }
         let label = if o.flex == Flex::Fixed { self.show(o.expr.ty) } else { "a number".to_owned() };
         let help = "compare it: `<> 0` gives BOOL";

@@ -25,7 +25,8 @@ impl Builder<'_> {
     /// `a op b` as written between its operands.
     pub(super) fn binary(&mut self, op: BinaryOp, l: &ast::Expr, r: &ast::Expr, span: Span, want: Option<TypeId>) -> Operand {
         let hint = if is_comparison(op) { None } else { want };
-        let (a, b) = if self.is_enumerator(l) && !self.is_enumerator(r) {
+        let waits = |b: &Self, e: &ast::Expr| b.is_enumerator(e) || matches!(e.kind, ast::ExprKind::Null);
+        let (a, b) = if waits(self, l) && !waits(self, r) {
             let b = self.operand(r, hint);
             (self.operand(l, Some(b.expr.ty)), b)
         } else {
@@ -48,6 +49,9 @@ impl Builder<'_> {
         }
         let same_enum = is_comparison(op) && a.expr.ty == b.expr.ty;
         let (a, b) = if same_enum { (a, b) } else { (self.decay(a), self.decay(b)) };
+        if let Some(o) = self.pointer_operator(op, &a, &b, span) {
+            return o;
+        }
         if op == BinaryOp::Power {
             return self.power(a, b, span, want);
         }
@@ -97,7 +101,7 @@ impl Builder<'_> {
         let (Flex::Int { based: x }, Flex::Int { based: y }) = (a.flex, b.flex) else { return self.bad(span) };
         let (ExprKind::Const(ca), ExprKind::Const(cb)) = (&a.expr.kind, &b.expr.kind) else { return self.bad(span) };
         let (va, vb) = (constant::int(ca).unwrap_or(0), constant::int(cb).unwrap_or(0));
-        if is_logic(op) && !(x && y) {
+        if is_logic(op) && !(x && y) && !self.profile(span).mixes_bits_and_integers() {
             return self.bad_operand(op.text(), a.expr.ty, span, "write bit strings as WORD#5 or 16#05");
         }
         match constant::exact(op, va, vb) {
@@ -125,7 +129,8 @@ impl Builder<'_> {
 
     /// Two operands of one type.
     fn typed(&mut self, op: BinaryOp, a: Expr, b: Expr, span: Span) -> Operand {
-        if !self.has_operator(op, a.ty) {
+        let (a, b) = self.promoted(op, a, b);
+        if !self.has_operator(op, a.ty, span) {
             return self.bad_operand(op.text(), a.ty, span, operator_help(op, self.ty(a.ty)));
         }
         let ty = if is_comparison(op) { self.bool() } else { a.ty };
@@ -151,24 +156,34 @@ impl Builder<'_> {
     }
 
     fn divides_by_zero(&self, op: BinaryOp, b: &Expr) -> bool {
-        let integer = self.elementary(b.ty).is_some_and(Elementary::is_int);
+        let integer = self.elementary(b.ty).is_some_and(|e| e.is_int() || e.is_bit());
         matches!(op, BinaryOp::Div | BinaryOp::Mod) && integer && matches!(&b.kind, ExprKind::Const(c) if constant::is_zero(c))
     }
 
-    fn has_operator(&self, op: BinaryOp, ty: TypeId) -> bool {
+    fn has_operator(&mut self, op: BinaryOp, ty: TypeId, span: Span) -> bool {
         use BinaryOp::*;
         let Some(e) = self.elementary(ty) else {
             return match self.ty(ty) {
                 Type::String { .. } | Type::WString { .. } | Type::Subrange { .. } => is_comparison(op),
-                Type::Enum { .. } => matches!(op, Eq | Ne) || (is_comparison(op) && self.named_values.contains(&ty)),
+                Type::Pointer { .. } => matches!(op, Eq | Ne),
+                Type::Enum { .. } if matches!(op, Eq | Ne) || !is_comparison(op) => is_comparison(op),
+                Type::Enum { .. } => {
+                    if !self.named_values.contains(&ty) {
+                        self.codesys_form(span, "the order of two values of an enumeration");
+                    }
+                    true
+                }
                 _ => false,
             };
         };
+        // Bit strings compute as unsigned integers, and integers have logic (vendor).
+        let mixes = self.profile(span).mixes_bits_and_integers() && e != Elementary::Bool;
+        let number = e.is_int() || e.is_bit() && mixes;
         match op {
-            Add | Sub => e.is_int() || e.is_real() || e.is_duration(),
-            Mul | Div => e.is_int() || e.is_real(),
-            Mod => e.is_int(),
-            And | Or | Xor => e.is_bit(),
+            Add | Sub => number || e.is_real() || e.is_duration(),
+            Mul | Div => number || e.is_real(),
+            Mod => number,
+            And | Or | Xor => e.is_bit() || number && mixes,
             AndThen | OrElse => e == Elementary::Bool,
             Eq | Ne | Lt | Gt | Le | Ge => true,
             Power => e.is_real(),
@@ -189,6 +204,10 @@ impl Builder<'_> {
     }
 
     fn sign(&mut self, op: UnaryOp, o: Operand, span: Span) -> Operand {
+        let o = match o.flex {
+            Flex::Fixed if op == UnaryOp::Neg => Operand::fixed(self.signed(o.expr)),
+            _ => o,
+        };
         let e = self.elementary(o.expr.ty);
         if !e.is_some_and(|e| e.is_int() || e.is_real() || e.is_duration()) || o.flex == Flex::Text {
             return self.bad_operand(
@@ -230,12 +249,14 @@ impl Builder<'_> {
             return self.bad(span);
         }
         let ty = o.expr.ty;
-        let Some(e) = self.elementary(ty).filter(|e| e.is_bit() && o.flex == Flex::Fixed) else {
+        let mixes = self.profile(span).mixes_bits_and_integers();
+        let bits = |e: &Elementary| e.is_bit() || e.is_int() && mixes;
+        let Some(e) = self.elementary(ty).filter(|e| bits(e) && o.flex == Flex::Fixed) else {
             return self.bad_operand("NOT", ty, span, "NOT needs BOOL or a bit string");
         };
-        match (&o.expr.kind, e.int_range()) {
-            (ExprKind::Const(c), Some((_, ones))) => {
-                let value = constant::int(c).unwrap_or(0) ^ ones;
+        match &o.expr.kind {
+            ExprKind::Const(c) => {
+                let value = constant::low_bits(!constant::int(c).unwrap_or(0), e);
                 Operand::fixed(constant_expr(Const::Int(value), ty, span))
             }
             _ => Operand::fixed(Expr { kind: ExprKind::Not(Box::new(o.expr)), ty, span }),

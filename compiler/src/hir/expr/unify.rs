@@ -3,6 +3,7 @@
 use crate::hir::builder::Builder;
 use crate::hir::constant;
 use crate::hir::convert::{Flex, Operand};
+use crate::hir::lattice;
 use crate::hir::model::*;
 use takt_image::types::Type;
 use takt_image::{Elementary, TypeId};
@@ -38,6 +39,10 @@ impl Builder<'_> {
         let typed = self.decay(typed);
         let ty = typed.expr.ty;
         match (literal.flex, self.elementary(ty)) {
+            (Flex::Int { .. }, Some(e)) if e.is_int() && self.outgrows(&literal, ty) => {
+                let literal = Operand::fixed(self.settle(literal));
+                self.unify_fixed(typed, literal)
+            }
             (Flex::Int { .. }, Some(e)) if e.is_int() || e.is_real() || e.is_bit() => {
                 Some((typed, Operand::fixed(self.fit(literal, ty))))
             }
@@ -52,6 +57,11 @@ impl Builder<'_> {
             (Flex::Text, _) => self.unify_fixed(typed, Operand { flex: Flex::Fixed, ..literal }),
             _ => None,
         }
+    }
+
+    /// A number that the vendors compute in a wider type, because it does not fit the other operand's.
+    fn outgrows(&mut self, literal: &Operand, ty: TypeId) -> bool {
+        self.profile(literal.expr.span).is_vendor() && !self.fits(literal, ty)
     }
 
     /// The real type for a number of type `e` beside an untyped real: the wanted one if that will do.
@@ -69,7 +79,8 @@ impl Builder<'_> {
             return self.unify_strings(a, b);
         }
         let (a, b) = (self.decay(a), self.decay(b));
-        let common = self.elementary(a.expr.ty)?.common(self.elementary(b.expr.ty)?)?;
+        let (x, y) = (self.elementary(a.expr.ty)?, self.elementary(b.expr.ty)?);
+        let common = lattice::common(self.profile(a.expr.span), x, y)?;
         let to = self.elem(common);
         Some((Operand::fixed(self.fit(a, to)), Operand::fixed(self.fit(b, to))))
     }

@@ -72,8 +72,8 @@ impl Builder<'_> {
         }
         let ty = self.type_unit(place.ty)?;
         if let Type::Reference { .. } = self.ty(place.ty) {
-            if let (Base::Var(v), [], Some(pou)) = (place.base, &place.path[..], self.scope.pou) {
-                self.objects.called.push((pou, v, base.span));
+            if let (Base::Var(v), [], Some(pou)) = (&place.base, &place.path[..], self.scope.pou) {
+                self.objects.called.push((pou, *v, base.span));
             }
             let (ty_id, span) = (place.ty, base.span);
             let value = Expr { kind: ExprKind::Load(place), ty: ty_id, span };
@@ -90,10 +90,10 @@ impl Builder<'_> {
 
     /// True if another type than the static one can be found at the place: it was handed over, or is the running instance.
     pub(in crate::hir) fn is_dynamic(&self, place: &Place) -> bool {
-        match (place.path.last(), place.base) {
+        match (place.path.last(), &place.base) {
             (Some(Step::Field(_) | Step::Index(_)), _) => false,
             (None, Base::Global(_) | Base::Image(_)) => false,
-            (None, Base::Var(v)) => self.scope.pou.is_some_and(|p| self.hir.pous[p].vars[v].role == Role::InOut),
+            (None, Base::Var(v)) => self.scope.pou.is_some_and(|p| self.hir.pous[p].vars[*v].role == Role::InOut),
             _ => true,
         }
     }

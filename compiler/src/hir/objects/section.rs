@@ -38,7 +38,7 @@ impl Builder<'_> {
 
     /// True for the running instance itself, whose variables all its methods may write.
     pub(in crate::hir) fn is_own_place(&self, place: &Place) -> bool {
-        place.base == Base::This && place.path.is_empty()
+        matches!(place.base, Base::This) && place.path.is_empty()
     }
 
     /// False and a report if a variable of an instance may not be used from here.

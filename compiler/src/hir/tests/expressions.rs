@@ -103,7 +103,7 @@ fn operators_by_type() {
             ("s = ws", "P2002"),
             ("light = Red", "BOOL"),
             ("Red = light", "BOOL"),
-            ("light < Red", "P2003"),
+            ("light < Red", "P0014"),
             ("light = mode", "P2002"),
             ("light + light", "P2003"),
             ("col OR White", "DWORD"),

@@ -137,6 +137,7 @@ fn show(c: &Const) -> String {
         Const::WString(s) => format!("\"{}\"", String::from_utf16_lossy(s)),
         Const::Aggregate(parts) => format!("[{}]", parts.iter().map(show).collect::<Vec<_>>().join(", ")),
         Const::Zero => "0".to_owned(),
+        Const::Address(g, bytes) => format!("REF({g:?}+{bytes})"),
     }
 }
 

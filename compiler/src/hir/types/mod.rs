@@ -50,8 +50,9 @@ impl Builder<'_> {
             ast::TypeRefKind::Enum(decl) => self.anonymous_enum(decl),
             ast::TypeRefKind::Struct(members) => {
                 let name = self.sources.text(t.span).split_whitespace().collect::<Vec<_>>().join(" ");
-                self.structure(name, members, t.span)
+                self.structure(name, members, t.span, None)
             }
+            ast::TypeRefKind::Pointer { kind, target } => self.pointer_type(*kind, target),
             ast::TypeRefKind::Error => self.bad_type(),
         }
     }
@@ -108,7 +109,7 @@ impl Builder<'_> {
             State::Pending => entry.state = State::Busy,
         }
         let outer = std::mem::take(&mut self.scope);
-        let resolved = self.deeper(at, |b| b.type_body(decl)).unwrap_or_else(|| self.bad_type());
+        let resolved = self.deeper(at, |b| b.type_body(index, decl)).unwrap_or_else(|| self.bad_type());
         self.scope = outer;
         let entry = &mut self.symbols.types[index];
         entry.state = State::Done;
@@ -116,7 +117,7 @@ impl Builder<'_> {
         resolved
     }
 
-    fn type_body(&mut self, decl: &ast::TypeDecl) -> TypeUse {
+    fn type_body(&mut self, index: usize, decl: &ast::TypeDecl) -> TypeUse {
         let name = &decl.name.text;
         let body = match &decl.body {
             ast::TypeBody::Ref(ast::TypeRef { kind: ast::TypeRefKind::Subrange { base, low, high }, span }) => {
@@ -124,7 +125,10 @@ impl Builder<'_> {
             }
             ast::TypeBody::Ref(t) => self.type_ref(t),
             ast::TypeBody::Enum(e) => self.enumeration(name.clone(), e),
-            ast::TypeBody::Struct(members) => self.structure(name.clone(), members, decl.name.span),
+            ast::TypeBody::Struct(members) => {
+                let id = self.reserved_type(index);
+                self.structure(name.clone(), members, decl.name.span, Some(id))
+            }
         };
         let Some(init) = &decl.init else { return body };
         let default = self.initial(init, &body);

@@ -19,8 +19,8 @@ pub(in crate::hir) struct Member {
 }
 
 impl Builder<'_> {
-    /// `STRUCT ... END_STRUCT`.
-    pub(super) fn structure(&mut self, name: String, decls: &[ast::VarDecl], at: Span) -> TypeUse {
+    /// `STRUCT ... END_STRUCT`; with the id that was reserved for it, if any.
+    pub(super) fn structure(&mut self, name: String, decls: &[ast::VarDecl], at: Span, id: Option<TypeId>) -> TypeUse {
         let mut members: Vec<Member> = Vec::new();
         let mut spans: Vec<Span> = Vec::new();
         for decl in decls {
@@ -37,7 +37,8 @@ impl Builder<'_> {
             }
         }
         let Some((record, default)) = self.record(name, members, at) else { return self.bad_type() };
-        let ty = self.hir.types.add(Type::Struct(record));
+        let ty = id.unwrap_or_else(|| self.hir.types.add(Type::Struct(record.clone())));
+        self.hir.types.replace(ty, Type::Struct(record));
         self.defaults.insert(ty, default);
         self.plain(ty)
     }

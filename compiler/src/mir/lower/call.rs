@@ -7,6 +7,7 @@ use super::builder::behind;
 use super::expr::{Text, Value};
 use super::native::slot_of;
 use super::place::{Loc, field};
+use super::pointer::Purpose;
 use super::shape::Shape;
 use super::unit::Unit;
 use super::walk::argument_calls;
@@ -168,7 +169,7 @@ impl Unit<'_, '_> {
     /// Runs a function block: inputs, body, outputs, each in order.
     pub fn call_block(&mut self, instance: &Place, id: PouId, inputs: &[(VarId, Arg)], outputs: &[Output]) {
         let pou = &self.hir.pous[id];
-        let this = self.memory(instance);
+        let this = self.memory(instance, Purpose::Write);
         let mut back = Vec::new();
         for (var, arg) in inputs {
             self.block_input(pou, this, &pou.vars[*var], arg, &mut back);

@@ -181,17 +181,19 @@ impl Unit<'_, '_> {
     /// The variable, if nothing in the body can change it: it is the unit's own, is neither written nor lent there, and the unit
     /// can't be entered again with the same instance.
     fn steady(&self, variable: &Place, body: &[Stmt]) -> Option<VarId> {
-        let (Base::Var(var), true) = (variable.base, variable.path.is_empty()) else { return None };
+        let (&Base::Var(var), true) = (&variable.base, variable.path.is_empty()) else { return None };
         let own = matches!(self.var(var).role, Role::Local | Role::Temp | Role::Result | Role::Hidden);
         let mut changed = false;
         let mut calls = false;
         walk::statements(body, &mut |event| match event {
-            Event::Write(p) | Event::Lend(p) => changed |= p.base == Base::Var(var),
+            Event::Write(p) if p.derefs() => calls |= self.program.wild || self.program.referred,
+            Event::Write(p) | Event::Lend(p) | Event::Refer(p) => changed |= p.variable() == Some(var),
             Event::Call(_) => calls = true,
         });
         let private = match self.homes[var] {
             Home::Register(_) => true,
             Home::Memory(addr) if addr.base == AddrBase::Frame => !calls,
+            Home::Memory(_) if calls && self.program.referred => false,
             Home::Memory(_) => !(calls && self.pou.is_none_or(|p| self.program.recursive[p])),
             Home::Image(_) => false,
         };

@@ -1,7 +1,8 @@
 //! The data area: where globals, program instances and constants lie, what they contain at the start, and the symbols that name
 //! them. From: language reference §3.6, §3.11.
 
-use super::init::{Chunks, constant};
+use super::init::{Chunks, Globals, constant};
+use super::pointer::Reach;
 use crate::hir::model::*;
 use std::collections::{BTreeMap, HashMap};
 use std::ops::Range;
@@ -47,7 +48,6 @@ impl Data {
             start,
             next: start as u64,
         };
-        image_contents(hir, &map, &mut data.chunks);
         for g in hir.globals.iter() {
             let place = g.place.map_or_else(|| data.global(hir, g), Ok)?;
             data.globals.push(place);
@@ -56,7 +56,41 @@ impl Data {
             let places: Result<_, _> = task.programs.iter().map(|p| data.instance(hir, p)).collect();
             data.instances.push(places?);
         }
+        data.contents(hir, &map);
         Ok(data)
+    }
+
+    /// Initial values, when all places are known: a reference may refer to what comes later.
+    fn contents(&mut self, hir: &Hir, map: &MemoryMap) {
+        let (globals, chunks) = (&self.globals, &mut self.chunks);
+        image_contents(hir, map, globals, chunks);
+        for (g, place) in hir.globals.iter().zip(globals.iter()).filter(|(g, _)| g.place.is_none()) {
+            if let ImagePlace::Byte(offset) = *place {
+                constant(&hir.types, globals, g.ty, &g.init, &mut |at, bytes| chunks.put(offset + at, bytes));
+            }
+        }
+        let programs = hir.tasks.iter().zip(&self.instances).flat_map(|(t, offsets)| t.programs.iter().zip(offsets));
+        for (program, offset) in programs {
+            let pou = &hir.pous[program.pou];
+            let Some(ty) = pou.instance else { continue };
+            for var in pou.vars.iter() {
+                if let Some(field) = field_offset(hir, ty, var) {
+                    constant(&hir.types, globals, var.ty, &var.init, &mut |at, bytes| chunks.put(offset + field + at, bytes));
+                }
+            }
+        }
+    }
+
+    /// Bytes without a name behind all variables.
+    pub fn reserve_bytes(&mut self, size: u32, align: u32) -> Option<u32> {
+        self.take(size, align)
+    }
+
+    /// What pointers may reach: everything that is there now.
+    pub fn reach(&self, hir: &Hir) -> Reach {
+        let map = process_image(hir).unwrap_or_default();
+        let end = u32::try_from(self.next).unwrap_or(MAX_MEMORY);
+        Reach { read: map.inputs.start, write: map.outputs.start, end }
     }
 
     fn global(&mut self, hir: &Hir, g: &Global) -> Result<ImagePlace, Diag> {
@@ -65,20 +99,13 @@ impl Data {
             let first = if self.named_instances.is_empty() { offset as u64 } else { self.named_instances.start };
             self.named_instances = first..self.next;
         }
-        constant(&hir.types, g.ty, &g.init, &mut |at, bytes| self.chunks.put(offset + at, bytes));
         Ok(ImagePlace::Byte(offset))
     }
 
     fn instance(&mut self, hir: &Hir, program: &ProgramInstance) -> Result<u32, Diag> {
         let pou = &hir.pous[program.pou];
         let Some(ty) = pou.instance else { return Ok(self.start) };
-        let offset = self.reserve(hir, ty, pou.end, &program.name)?;
-        for var in pou.vars.iter() {
-            if let Some(field) = field_offset(hir, ty, var) {
-                constant(&hir.types, var.ty, &var.init, &mut |at, bytes| self.chunks.put(offset + field + at, bytes));
-            }
-        }
-        Ok(offset)
+        self.reserve(hir, ty, pou.end, &program.name)
     }
 
     fn reserve(&mut self, hir: &Hir, ty: TypeId, span: Span, name: &str) -> Result<u32, Diag> {
@@ -134,7 +161,7 @@ fn field_offset(hir: &Hir, instance: TypeId, var: &Var) -> Option<u32> {
 }
 
 /// Initial values of located variables. Those on %I are ignored (§3.4).
-fn image_contents(hir: &Hir, map: &MemoryMap, chunks: &mut Chunks) {
+fn image_contents(hir: &Hir, map: &MemoryMap, globals: &Globals, chunks: &mut Chunks) {
     let mut bytes = BTreeMap::new();
     let located = hir.globals.iter().filter_map(|g| Some((g.place?, g.ty, &g.init)));
     let programs = hir.pous.iter().filter(|p| p.reachable && p.kind == PouKind::Program);
@@ -143,7 +170,7 @@ fn image_contents(hir: &Hir, map: &MemoryMap, chunks: &mut Chunks) {
         _ => None,
     });
     for (place, ty, init) in located.chain(in_programs) {
-        constant(&hir.types, ty, init, &mut |at, value| match place {
+        constant(&hir.types, globals, ty, init, &mut |at, value| match place {
             ImagePlace::Byte(offset) => {
                 value.iter().enumerate().for_each(|(i, b)| _ = bytes.insert(offset + at + i as u32, *b));
             }
@@ -192,9 +219,9 @@ pub fn nowhere() -> Span {
 }
 
 /// Bytes of a constant of a type, zeros included.
-pub fn bytes_of(hir: &Hir, ty: TypeId, value: &Const) -> Vec<u8> {
+pub fn bytes_of(hir: &Hir, globals: &Globals, ty: TypeId, value: &Const) -> Vec<u8> {
     let mut bytes = vec![0; hir.types.layout(ty).size as usize];
-    constant(&hir.types, ty, value, &mut |at, part| {
+    constant(&hir.types, globals, ty, value, &mut |at, part| {
         if let Some(place) = bytes.get_mut(at as usize..at as usize + part.len()) {
             place.copy_from_slice(part);
         }

@@ -3,13 +3,15 @@
 use super::builder::{at, fixed};
 use super::data::bytes_of;
 use super::place::Loc;
+use super::pointer::Purpose;
 use super::shape::Shape;
 use super::unit::Unit;
 use crate::hir::model::*;
 use crate::mir::model::*;
 use crate::syntax::ast::BinaryOp as Operator;
 use takt_base::Span;
-use takt_image::{Elementary, Scalar, TypeId};
+use takt_image::types::PointerKind;
+use takt_image::{Elementary, Scalar, Type, TypeId};
 
 /// A string in memory.
 #[derive(Clone, Copy, Debug)]
@@ -52,6 +54,7 @@ impl Unit<'_, '_> {
         match &e.kind {
             ExprKind::Const(c) => self.constant(elementary, c),
             ExprKind::Load(p) => self.read(p),
+            ExprKind::Address(p) => self.address_value(p, e.ty),
             ExprKind::Neg(a) => {
                 let value = self.value(a);
                 self.f.unary(if elementary.is_real() { UnaryOp::FNeg } else { UnaryOp::Neg }, value)
@@ -72,7 +75,7 @@ impl Unit<'_, '_> {
                 _ => unreachable!("a method with a scalar result"),
             },
             ExprKind::AddressOf(p) => {
-                let addr = self.memory(p);
+                let addr = self.memory(p, Purpose::Address);
                 self.f.address(addr)
             }
             ExprKind::OfClass(a, classes) => self.of_class(a, classes),
@@ -91,8 +94,19 @@ impl Unit<'_, '_> {
         if let Some(counter) = self.counter(p) {
             return counter.register;
         }
-        let loc = self.place(p);
-        self.load(loc, p.ty)
+        let loc = self.place_for(p, Purpose::Read);
+        let value = self.load(loc, p.ty);
+        let any_byte = p.derefs() && self.hir.elementary(p.ty) == Some(Elementary::Bool);
+        if any_byte { self.f.compare_const(Compare::Ne, value, 0) } else { value }
+    }
+
+    /// REF and ADR.
+    fn address_value(&mut self, p: &Place, ty: TypeId) -> Local {
+        let checked = matches!(self.hir.types.get(ty), Type::Pointer { kind: PointerKind::RefTo, .. });
+        match self.place_for(p, if checked { Purpose::Read } else { Purpose::Address }) {
+            Loc::Memory(addr) => self.f.address(addr),
+            _ => unreachable!("bits and registers are not referred to"),
+        }
     }
 
     /// A constant in a register.
@@ -102,6 +116,9 @@ impl Unit<'_, '_> {
             Const::Int(i) if s == Scalar::F32 => self.f.float(s, *i as f32 as f64),
             Const::Int(i) if s == Scalar::F64 => self.f.float(s, *i as f64),
             Const::Int(i) => self.f.int(s, *i as i64),
+            Const::Address(global, bytes) => {
+                self.f.int(s, super::init::address(&self.program.data.globals, *global, *bytes).into())
+            }
             Const::Real(r) if s == Scalar::F32 => self.f.float(s, *r as f32 as f64),
             Const::Real(r) => self.f.float(s, *r),
             _ => self.f.zero(s),
@@ -165,7 +182,7 @@ impl Unit<'_, '_> {
         let here = |addr| Text { addr, capacity, unit };
         match &e.kind {
             ExprKind::Const(c) => here(self.pooled(e.ty, c, e.span)),
-            ExprKind::Load(p) => here(self.memory(p)),
+            ExprKind::Load(p) => here(self.memory(p, Purpose::Read)),
             ExprKind::Convert(Conversion::String, a) => self.string_of(a, capacity, unit),
             ExprKind::Intrinsic(i, args) => match self.intrinsic(*i, args, e.ty) {
                 Value::Text(t) => t,
@@ -233,7 +250,7 @@ impl Unit<'_, '_> {
         let line = self.at_line(e.span);
         let addr = match &e.kind {
             ExprKind::Const(c) => self.pooled(e.ty, c, e.span),
-            ExprKind::Load(p) => self.memory(p),
+            ExprKind::Load(p) => self.memory(p, Purpose::Read),
             ExprKind::Convert(_, a) => self.bytes(a),
             ExprKind::Intrinsic(i, args) => match self.intrinsic(*i, args, e.ty) {
                 Value::Bytes(a) => a,
@@ -254,8 +271,8 @@ impl Unit<'_, '_> {
     }
 
     /// Address of something that is in memory.
-    pub fn memory(&mut self, p: &Place) -> Addr {
-        match self.place(p) {
+    pub fn memory(&mut self, p: &Place, purpose: Purpose) -> Addr {
+        match self.place_for(p, purpose) {
             Loc::Memory(addr) => addr,
             _ => unreachable!("strings, arrays and structures are in memory"),
         }
@@ -263,7 +280,7 @@ impl Unit<'_, '_> {
 
     /// Address of a constant.
     pub fn pooled(&mut self, ty: TypeId, value: &Const, span: Span) -> Addr {
-        let bytes = bytes_of(self.hir, ty, value);
+        let bytes = bytes_of(self.hir, &self.program.data.globals, ty, value);
         match self.program.data.pooled(bytes) {
             Some(offset) => fixed(offset),
             None => {

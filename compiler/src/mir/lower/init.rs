@@ -1,12 +1,16 @@
 //! Initial contents as sparse chunks: zeros cost nothing, neighbours share a chunk.
 
 use super::data::scalar_bytes;
-use crate::hir::model::Const;
-use takt_image::image::Chunk;
+use crate::hir::model::{Const, GlobalId};
+use takt_base::index::IndexVec;
+use takt_image::image::{Chunk, Place};
 use takt_image::{Type, TypeId, TypeTable};
 
 /// Zeros between two pieces that are cheaper to store than a second chunk.
 const GAP: u32 = 16;
+
+/// Places of the global variables.
+pub type Globals = IndexVec<GlobalId, Place>;
 
 /// Chunks in ascending order.
 #[derive(Default)]
@@ -39,21 +43,31 @@ fn end(chunk: &Chunk) -> u32 {
 }
 
 /// Hands out the non-zero parts of a constant in ascending order, with their offsets from its start.
-pub fn constant(types: &TypeTable, ty: TypeId, value: &Const, put: &mut dyn FnMut(u32, &[u8])) {
-    part(types, ty, value, 0, put);
+pub fn constant(types: &TypeTable, globals: &Globals, ty: TypeId, value: &Const, put: &mut dyn FnMut(u32, &[u8])) {
+    part((types, globals), ty, value, 0, put);
 }
 
-fn part(types: &TypeTable, ty: TypeId, value: &Const, at: u32, put: &mut dyn FnMut(u32, &[u8])) {
+/// The value of a reference to a part of a global variable.
+pub fn address(globals: &Globals, global: GlobalId, bytes: u32) -> u32 {
+    match globals.get(global) {
+        Some(Place::Byte(offset)) => offset.saturating_add(bytes),
+        _ => 0,
+    }
+}
+
+fn part(known: (&TypeTable, &Globals), ty: TypeId, value: &Const, at: u32, put: &mut dyn FnMut(u32, &[u8])) {
+    let (types, globals) = known;
     match (value, types.get(ty)) {
         (Const::Zero, _) | (_, Type::Reference { .. }) => {}
+        (Const::Address(global, bytes), _) => put(at, &address(globals, *global, *bytes).to_le_bytes()),
         (Const::String(s), _) => put(at, s),
         (Const::WString(s), _) => put(at, &s.iter().flat_map(|u| u.to_le_bytes()).collect::<Vec<_>>()),
         (Const::Aggregate(items), Type::Array { element, .. }) => {
             let size = types.layout(*element).size;
-            items.iter().zip(0..).for_each(|(item, i)| part(types, *element, item, at + i * size, put));
+            items.iter().zip(0..).for_each(|(item, i)| part(known, *element, item, at + i * size, put));
         }
         (Const::Aggregate(items), Type::Struct(r) | Type::Instance(r)) => {
-            items.iter().zip(&r.fields).for_each(|(item, f)| part(types, f.ty, item, at + f.offset, put));
+            items.iter().zip(&r.fields).for_each(|(item, f)| part(known, f.ty, item, at + f.offset, put));
         }
         (scalar, _) => {
             if let Some(e) = types.storage(ty) {

@@ -19,6 +19,7 @@ mod native;
 mod object;
 mod operator;
 mod place;
+mod pointer;
 mod shape;
 mod stmt;
 mod task;
@@ -30,11 +31,12 @@ use crate::hir::model::*;
 use crate::mir::model::{FuncId, Module, NativeId};
 use data::Data;
 use lines::Lines;
+use std::collections::HashMap;
 use takt_base::index::IndexVec;
 use takt_base::{Diag, Sources};
 use takt_image::image::{Chunk, Symbol, Task};
 use takt_image::memory::MAX_MEMORY;
-use takt_image::{MemoryMap, NativeImport};
+use takt_image::{MemoryMap, NativeImport, Type};
 
 /// A lowered program: everything of an image but the machine code.
 #[derive(Clone, Debug)]
@@ -62,6 +64,12 @@ pub struct Program<'h> {
     recursive: IndexVec<PouId, bool>,
     natives: IndexVec<NativeId, NativeImport>,
     diags: Vec<Diag>,
+    statics: pointer::Statics,
+    reach: pointer::Reach,
+    /// Pointers may hold any number.
+    wild: bool,
+    /// References to variables are kept.
+    referred: bool,
 }
 
 /// Lowers a program that was checked without errors.
@@ -103,7 +111,22 @@ impl<'h> Program<'h> {
         };
         let functions = hir.pous.iter().map(number).collect();
         let (lines, recursive) = (Lines::new(sources), graph::recursive(hir));
-        Program { hir, lines, data, functions, recursive, natives: IndexVec::new(), diags: Vec::new() }
+        let referred = hir.types.iter().any(|(_, t)| matches!(t, Type::Pointer { .. }));
+        let mut program = Program {
+            hir,
+            lines,
+            data,
+            functions,
+            recursive,
+            natives: IndexVec::new(),
+            diags: Vec::new(),
+            statics: HashMap::new(),
+            reach: pointer::Reach::default(),
+            wild: pointer::has_pointers(hir),
+            referred,
+        };
+        program.prepare_pointers();
+        program
     }
 
     /// The number of an import, the same for all its calls.

@@ -3,6 +3,7 @@
 use super::builder::{at, behind};
 use super::call::Given;
 use super::expr::Value;
+use super::pointer::Purpose;
 use super::unit::Unit;
 use super::walk::argument_calls;
 use crate::hir::model::*;
@@ -44,7 +45,7 @@ impl Unit<'_, '_> {
     fn receiver(&mut self, receiver: &Receiver) -> Local {
         match receiver {
             Receiver::Place(p) => {
-                let addr = self.memory(p);
+                let addr = self.memory(p, Purpose::Write);
                 self.f.address(addr)
             }
             Receiver::Reference(e) => {
@@ -92,9 +93,9 @@ impl Unit<'_, '_> {
 
     /// The bodies that a call of a function block can run. SUPER() and a variable of the unit's own run that of their type.
     pub fn bodies(&self, instance: &Place, id: PouId) -> Vec<(u32, PouId)> {
-        let handed_over = match (instance.path.last(), instance.base) {
+        let handed_over = match (instance.path.last(), &instance.base) {
             (Some(Step::Field(_) | Step::Index(_)), _) | (None, Base::Global(_) | Base::Image(_) | Base::This) => false,
-            (None, Base::Var(v)) => self.var(v).role == Role::InOut,
+            (None, Base::Var(v)) => self.var(*v).role == Role::InOut,
             _ => true,
         };
         if !handed_over || self.hir.pous[id].class.is_none() {

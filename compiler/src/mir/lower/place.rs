@@ -1,6 +1,7 @@
 //! Places: where a variable, field, element, bit or character is, and how it is read and written.
 
 use super::builder::{at, behind, fixed};
+use super::pointer::Purpose;
 use super::shape::{Shape, shape};
 use super::unit::{Home, Unit};
 use crate::hir::model::*;
@@ -33,19 +34,59 @@ pub fn field(types: &TypeTable, record: TypeId, index: u32) -> Option<&Field> {
 impl Unit<'_, '_> {
     /// Evaluates the index expressions of a place, with their checks, and says where it is.
     pub fn place(&mut self, p: &Place) -> Loc {
+        self.place_for(p, Purpose::Write)
+    }
+
+    /// The same, with the checks for what is done there: what a pointer leads to is checked when the place is known.
+    pub fn place_for(&mut self, p: &Place, purpose: Purpose) -> Loc {
         let (mut loc, mut ty) = self.base(p);
+        let mut pointed = false;
         for step in &p.path {
+            match step {
+                Step::Deref => {
+                    if pointed {
+                        loc = self.checked(loc, ty, Purpose::Read);
+                    }
+                    loc = Loc::Memory(at(self.pointer(loc, ty, purpose)));
+                    ty = self.pointee(ty);
+                    pointed = true;
+                    continue;
+                }
+                Step::Part { .. } | Step::Character(_) if pointed => {
+                    loc = self.checked(loc, ty, purpose);
+                    pointed = false;
+                }
+                _ => {}
+            }
             (loc, ty) = self.step(loc, ty, step);
         }
-        loc
+        if pointed { self.checked(loc, ty, purpose) } else { loc }
+    }
+
+    fn pointee(&self, ty: TypeId) -> TypeId {
+        match self.hir.types.get(ty) {
+            Type::Pointer { target, .. } => *target,
+            _ => unreachable!("only references are followed"),
+        }
+    }
+
+    /// A place behind a pointer, checked.
+    fn checked(&mut self, loc: Loc, ty: TypeId, purpose: Purpose) -> Loc {
+        match (loc, purpose) {
+            (Loc::Memory(addr), Purpose::Read | Purpose::Write) => {
+                Loc::Memory(self.reachable(addr, self.hir.types.layout(ty).size, purpose))
+            }
+            _ => loc,
+        }
     }
 
     fn base(&mut self, p: &Place) -> (Loc, TypeId) {
-        match p.base {
-            Base::Var(v) => (self.home(v), self.var(v).ty),
+        match &p.base {
+            Base::Value(e) => (Loc::Register(self.value(e)), e.ty),
+            &Base::Var(v) => (self.home(v), self.var(v).ty),
             Base::This => (Loc::Memory(self.this.expect("only types have instances")), self.this_type()),
-            Base::Global(g) => (image_loc(self.program.data.globals[g]), self.hir.globals[g].ty),
-            Base::Image(place) => (image_loc(place), p.ty),
+            &Base::Global(g) => (image_loc(self.program.data.globals[g]), self.hir.globals[g].ty),
+            &Base::Image(place) => (image_loc(place), p.ty),
         }
     }
 

@@ -24,7 +24,7 @@ pub fn shape(types: &TypeTable, ty: TypeId) -> Shape {
         Type::Elementary(e) | Type::Subrange { base: e, .. } | Type::Enum { base: e, .. } => Shape::Scalar(*e),
         Type::String { capacity } => Shape::Text { capacity: *capacity, unit: 1 },
         Type::WString { capacity } => Shape::Text { capacity: *capacity, unit: 2 },
-        Type::Reference { .. } => Shape::Scalar(Elementary::Udint),
+        Type::Reference { .. } | Type::Pointer { .. } => Shape::Scalar(Elementary::Udint),
         Type::Array { .. } | Type::Struct(_) | Type::Instance(_) => Shape::Bytes,
     }
 }

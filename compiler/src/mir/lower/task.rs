@@ -45,7 +45,7 @@ fn fixed_place(program: &mut Program<'_>, p: &Place) -> Option<ImagePlace> {
     let (mut at, mut ty) = match p.base {
         Base::Global(g) => (program.data.globals[g], program.hir.globals[g].ty),
         Base::Image(place) => (place, p.ty),
-        Base::Var(_) | Base::This => return unfit(program, p),
+        Base::Var(_) | Base::This | Base::Value(_) => return unfit(program, p),
     };
     for step in &p.path {
         let Some(next) = fixed_step(program.hir, at, ty, step) else { return unfit(program, p) };

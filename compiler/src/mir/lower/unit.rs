@@ -4,7 +4,7 @@
 //! parameters: scalars by value, everything else as an offset. Outputs are written at the end, so that they can't disturb inputs.
 
 use super::Program;
-use super::builder::{Builder, at, behind};
+use super::builder::{Builder, at, behind, fixed};
 use super::counted::Counter;
 use super::place::{Loc, field};
 use super::shape::{Shape, shape};
@@ -170,15 +170,15 @@ impl<'p, 'h> Unit<'p, 'h> {
 
     fn study(&mut self, pou: &'h Pou) {
         let (lent, quiet) = (&mut self.lent, &mut self.quiet);
-        let own = |p: &Place| match p.base {
-            Base::Var(v) => pou.vars[v].storage == Storage::Local && !matches!(pou.vars[v].role, Role::InOut | Role::Input),
+        let own = |p: &Place| match p.variable() {
+            Some(v) => pou.vars[v].storage == Storage::Local && !matches!(pou.vars[v].role, Role::InOut | Role::Input),
             _ => false,
         };
         walk::statements(&pou.body, &mut |event| match event {
             Event::Write(p) => *quiet &= own(p),
-            Event::Lend(p) => {
+            Event::Lend(p) | Event::Refer(p) => {
                 *quiet &= own(p);
-                if let Base::Var(v) = p.base {
+                if let Some(v) = p.variable() {
                     lent.insert(v);
                 }
             }
@@ -224,6 +224,7 @@ impl<'p, 'h> Unit<'p, 'h> {
             let unbound = self.f.compare_const(Compare::Eq, target, 0);
             self.f.trap_if(Trap::Reference, unbound);
         }
+        self.check_in_out(target, self.hir.types.layout(var.ty).size);
         Home::Memory(at(target))
     }
 
@@ -236,6 +237,10 @@ impl<'p, 'h> Unit<'p, 'h> {
             let home = match (var.role, given) {
                 (Role::InOut, Some(local)) => Home::Memory(at(local)),
                 (Role::Input, Some(local)) => self.input_home(id, var, local),
+                (Role::Result, _) if destination.is_some() && self.fixed_home(id).is_some() => {
+                    self.outputs.push((id, destination.expect("checked")));
+                    self.local_home(id, var)
+                }
                 (Role::Result, _) if destination.is_some() => Home::Memory(at(destination.expect("checked"))),
                 (Role::Output, Some(local)) => {
                     self.outputs.push((id, local));
@@ -267,13 +272,13 @@ impl<'p, 'h> Unit<'p, 'h> {
         match shape {
             Shape::Scalar(_) if !self.lent.contains(&id) => Home::Register(local),
             Shape::Scalar(_) => {
-                let own = self.frame_space(var);
+                let own = self.own_space(id, var);
                 self.f.store(own, local);
                 Home::Memory(own)
             }
             _ if self.quiet => Home::Memory(at(local)),
             _ => {
-                let own = self.frame_space(var);
+                let own = self.own_space(id, var);
                 self.copy_aggregate(own, shape, at(local), shape, var.ty);
                 self.set_class(own, var.ty);
                 Home::Memory(own)
@@ -284,11 +289,19 @@ impl<'p, 'h> Unit<'p, 'h> {
     fn local_home(&mut self, id: VarId, var: &Var) -> Home {
         match self.shape(var.ty) {
             Shape::Scalar(e) if !self.lent.contains(&id) => Home::Register(self.f.local(e.scalar())),
-            _ => Home::Memory(self.frame_space(var)),
+            _ => Home::Memory(self.own_space(id, var)),
         }
     }
 
-    fn frame_space(&mut self, var: &Var) -> Addr {
+    /// Place of a variable that pointers may point to.
+    fn fixed_home(&self, id: VarId) -> Option<Addr> {
+        self.program.statics.get(&(self.pou?, id)).map(|offset| fixed(*offset))
+    }
+
+    fn own_space(&mut self, id: VarId, var: &Var) -> Addr {
+        if let Some(home) = self.fixed_home(id) {
+            return home;
+        }
         let layout = self.hir.types.layout(var.ty);
         self.f.temp(layout.size, layout.align)
     }

@@ -8,6 +8,8 @@ pub enum Event<'a> {
     Write(&'a Place),
     /// Handed to somebody by address: VAR_IN_OUT, or VAR_OUTPUT of a function.
     Lend(&'a Place),
+    /// A reference to it is made.
+    Refer(&'a Place),
     /// A unit is called.
     Call(PouId),
 }
@@ -60,6 +62,10 @@ pub fn expression<'a>(e: &'a Expr, on: &mut dyn FnMut(Event<'a>)) {
     match &e.kind {
         ExprKind::Const(_) => {}
         ExprKind::Load(p) => place(p, on),
+        ExprKind::Address(p) => {
+            place(p, on);
+            on(Event::Refer(p));
+        }
         ExprKind::Neg(a) | ExprKind::Not(a) | ExprKind::Convert(_, a) => expression(a, on),
         ExprKind::Binary(_, a, b) => {
             expression(a, on);
@@ -104,11 +110,14 @@ fn write<'a>(p: &'a Place, on: &mut dyn FnMut(Event<'a>)) {
 }
 
 fn place<'a>(p: &'a Place, on: &mut dyn FnMut(Event<'a>)) {
+    if let Base::Value(e) = &p.base {
+        expression(e, on);
+    }
     for step in &p.path {
         match step {
             Step::Index(indices) => indices.iter().for_each(|e| expression(e, on)),
             Step::Character(e) => expression(e, on),
-            Step::Field(_) | Step::Part { .. } => {}
+            Step::Deref | Step::Field(_) | Step::Part { .. } => {}
         }
     }
 }

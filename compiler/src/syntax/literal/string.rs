@@ -1,4 +1,4 @@
-//! Strings and their `$` escapes. A STRING holds the bytes of the text as written (UTF-8), a WSTRING UTF-16 units.
+//! Strings and their `$` escapes. A STRING holds the bytes of the text as written (UTF-8 or Latin-1), a WSTRING UTF-16 units.
 //! From: IEC 61131-3 §6.3.3 (language reference §1.6).
 
 use super::{Problem, Read};
@@ -32,6 +32,25 @@ impl Units for Vec<u16> {
     }
 }
 
+/// Bytes of a text that was Latin-1.
+#[derive(Default)]
+struct Latin1(Vec<u8>);
+
+impl Units for Latin1 {
+    const HEX_DIGITS: usize = 2;
+    fn put(&mut self, c: char) {
+        self.0.push(u8::try_from(c).unwrap_or(b'?'));
+    }
+    fn put_code(&mut self, code: u16) {
+        self.0.push(code.to_le_bytes()[0]);
+    }
+}
+
+/// A token with its quotes of a file that was Latin-1, as STRING.
+pub(crate) fn latin1(token: &str) -> Read {
+    Ok(Literal::String(decode::<Latin1>(token)?.0).into())
+}
+
 /// A token with its quotes, as STRING.
 pub(crate) fn narrow(token: &str) -> Read {
     Ok(Literal::String(decode(token)?).into())
@@ -59,7 +78,7 @@ fn decode<U: Units>(token: &str) -> Result<U, Problem> {
                     chars.next();
                 }
             }
-            c if c.is_control() => {
+            c if c.is_ascii_control() => {
                 let problem = Problem::new(Code::BadEscape, format!("the control character U+{:04X} in a string", c as u32));
                 return Err(problem.at(i + 1, i + 1 + c.len_utf8()).help("write it as an escape: $T for TAB"));
             }

@@ -6,6 +6,7 @@ use crate::syntax::lexer::{Tok, Token, Tokens};
 use crate::syntax::report::Report;
 use std::collections::HashSet;
 use takt_base::diag::{Code, Diag};
+use takt_base::source::Source;
 use takt_base::{Profile, SourceId, Span};
 
 /// Deepest nesting of statements, types, initial values and expressions, counted together.
@@ -36,21 +37,16 @@ pub(super) struct Parser<'a> {
     library: bool,
     /// Dialect of the file.
     pub(super) profile: Profile,
+    /// A character of a string is one byte.
+    pub(super) latin1: bool,
     /// Positions from the first to the second have no section keyword between; see `var`.
     pub(super) section_ahead: (usize, usize),
 }
 
 impl<'a> Parser<'a> {
-    pub(super) fn new(
-        text: &'a str,
-        source: SourceId,
-        tokens: Tokens,
-        library: bool,
-        profile: Profile,
-        report: Report<'a>,
-    ) -> Self {
+    pub(super) fn new(file: &'a Source, source: SourceId, tokens: Tokens, report: Report<'a>) -> Self {
         Self {
-            text,
+            text: &file.text,
             source,
             tokens,
             pos: 0,
@@ -63,8 +59,9 @@ impl<'a> Parser<'a> {
             unwinding: false,
             named: HashSet::new(),
             misspelt: HashSet::new(),
-            library,
-            profile,
+            library: file.library,
+            profile: file.profile,
+            latin1: file.latin1,
             section_ahead: (0, 0),
         }
     }

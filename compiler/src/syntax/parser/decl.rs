@@ -5,8 +5,8 @@ use super::cursor::Parser;
 use crate::syntax::ast::{File, Item, Name, Objects, Pou, PouKind, Stmt, TypeRef, VarSection};
 use crate::syntax::keyword::Kw;
 use crate::syntax::lexer::Tok;
-use takt_base::Span;
 use takt_base::diag::{Code, Diag};
+use takt_base::{Profile, Span};
 
 impl Parser<'_> {
     /// The whole file.
@@ -34,7 +34,9 @@ impl Parser<'_> {
             Kw::Function => Some(Item::Pou(self.pou(PouKind::Function, Kw::EndFunction))),
             Kw::FunctionBlock => Some(Item::Pou(self.pou(PouKind::FunctionBlock, Kw::EndFunctionBlock))),
             Kw::Functionblock => {
-                self.misspelt_keyword(Kw::FunctionBlock);
+                if self.profile != Profile::Codesys2 {
+                    self.misspelt_keyword(Kw::FunctionBlock);
+                }
                 Some(Item::Pou(self.pou(PouKind::FunctionBlock, Kw::EndFunctionBlock)))
             }
             Kw::Program => Some(Item::Pou(self.pou(PouKind::Program, Kw::EndProgram))),

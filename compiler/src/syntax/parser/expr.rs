@@ -179,9 +179,9 @@ impl Parser<'_> {
                 Tok::LBracket => self.index(tree),
                 Tok::LParen => self.call(tree),
                 Tok::Caret => {
-                    self.unsupported_here("dereferencing (^)");
                     self.bump();
-                    Tree::error(self.since(tree.expr.span))
+                    let span = self.since(tree.expr.span);
+                    self.grown(Expr { kind: ExprKind::Deref(Box::new(tree.expr)), span }, tree.height)
                 }
                 _ => break,
             };
@@ -322,13 +322,11 @@ impl Parser<'_> {
                 self.eat(Tok::Caret); // vendor
                 ExprKind::Name(name)
             }
-            Kw::Ref if !self.is_used_as_name(token.kw) => {
-                self.unsupported_here("a reference (REF)");
-                self.bump();
-                ExprKind::Error
-            }
             kw if !kw.is_reserved() || self.is_used_as_name(kw) => ExprKind::Name(self.name()),
             kw if (is_function(kw) || kw.is_type()) && self.nth(1).kind == Tok::LParen => ExprKind::Name(self.bare_name()),
+            kw if kw.is_type() && self.prev().kind == Tok::LParen && self.nth(1).kind == Tok::RParen => {
+                ExprKind::Name(self.bare_name()) // SIZEOF(INT)
+            }
             _ => return self.no_operand(),
         };
         Tree::leaf(Expr { kind, span })
@@ -363,5 +361,5 @@ impl Parser<'_> {
 
 /// Keywords that are also functions: `AND(a, b)`.
 fn is_function(kw: Kw) -> bool {
-    matches!(kw, Kw::And | Kw::Or | Kw::Xor | Kw::Mod | Kw::Not)
+    matches!(kw, Kw::And | Kw::Or | Kw::Xor | Kw::Mod | Kw::Not | Kw::Ref)
 }

@@ -23,6 +23,22 @@ impl Parser<'_> {
         init
     }
 
+    /// `1, 2, 3(0)` (CODESYS 2): the elements of an array may stand without brackets.
+    pub(super) fn init_without_brackets(&mut self) -> Init {
+        let start = self.here();
+        let mut list = vec![self.array_element()];
+        while !self.lost && self.eat(Tok::Comma) {
+            list.push(self.array_element());
+        }
+        match (list.pop(), list.is_empty()) {
+            (Some(ArrayInit::One(init)), true) => init,
+            (last, _) => {
+                list.extend(last);
+                Init::Array(list, self.since(start))
+            }
+        }
+    }
+
     fn is_struct_init(&self) -> bool {
         let next = self.nth(1).kind;
         next == Tok::RParen || next == Tok::Word && self.nth(2).kind == Tok::Assign

@@ -11,6 +11,11 @@ use takt_base::diag::{Code, Diag};
 use takt_image::Elementary;
 
 impl Parser<'_> {
+    /// How this file's strings are read.
+    fn narrow(&self) -> fn(&str) -> Read {
+        if self.latin1 { string::latin1 } else { string::narrow }
+    }
+
     /// Takes a literal token; `None` if the current token is none.
     pub(super) fn literal(&mut self) -> Option<Expr> {
         let token = self.peek();
@@ -18,7 +23,7 @@ impl Parser<'_> {
             Tok::Int => number::integer,
             Tok::Real => number::real,
             Tok::Based => number::based,
-            Tok::String => string::narrow,
+            Tok::String => self.narrow(),
             Tok::WString => string::wide,
             Tok::Duration => time::duration,
             Tok::Date => time::date,
@@ -73,7 +78,7 @@ impl Parser<'_> {
 
     fn typed_string(&mut self, wide: bool) -> Expr {
         let token = self.peek();
-        let value = self.value(token, if wide { string::wide } else { string::narrow });
+        let value = self.value(token, if wide { string::wide } else { self.narrow() });
         self.bump();
         Expr { kind: value.map_or(ExprKind::Error, ExprKind::Literal), span: self.span_of(token) }
     }
@@ -106,7 +111,7 @@ impl Parser<'_> {
             (Tok::Based, _) if !negative => self.value(token, number::based),
             (Tok::Real, _) => self.value(token, number::real),
             (Tok::String, _) if ty == Elementary::Wchar => self.value(token, string::wide),
-            (Tok::String, _) => self.value(token, string::narrow),
+            (Tok::String, _) => self.value(token, self.narrow()),
             (Tok::WString, _) => self.value(token, string::wide),
             (Tok::BadNumber, _) => self.value(token, |text| Err(number::explain_bad(text))),
             _ => return self.no_value(ty, start),

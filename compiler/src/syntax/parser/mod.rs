@@ -37,5 +37,5 @@ pub fn parse(sources: &Sources, id: SourceId, sink: &mut Sink) -> File {
         return File::default();
     }
     let tokens = lex(&source.text, id, source.profile, &mut report);
-    Parser::new(&source.text, id, tokens, source.library, source.profile, report).file()
+    Parser::new(source, id, tokens, report).file()
 }

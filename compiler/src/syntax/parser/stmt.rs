@@ -180,7 +180,7 @@ impl Parser<'_> {
                 StmtKind::Attempt { target, value: self.expr() }
             }
             Tok::Word if self.set_or_reset().is_some() => self.chain(target),
-            Tok::Word if self.is_ref_assign() => self.unsupported_assign("REF="),
+            Tok::Word if self.is_word_and_equals("REF") => self.bind(target),
             _ => self.call_statement(target),
         }
     }
@@ -202,9 +202,12 @@ impl Parser<'_> {
         self.bump();
     }
 
-    /// `REF=` behind a variable.
-    fn is_ref_assign(&self) -> bool {
-        self.is_word_and_equals("REF")
+    /// `target REF= v`.
+    fn bind(&mut self, target: Expr) -> StmtKind {
+        self.codesys_form("REF=");
+        self.bump();
+        self.bump();
+        StmtKind::Bind { target, value: self.expr() }
     }
 
     /// `S=` or `R=` behind a variable.
@@ -216,7 +219,7 @@ impl Parser<'_> {
         }
     }
 
-    fn is_word_and_equals(&self, word: &str) -> bool {
+    pub(super) fn is_word_and_equals(&self, word: &str) -> bool {
         let (here, next) = (self.peek(), self.nth(1));
         word.eq_ignore_ascii_case(self.text_of(here)) && next.kind == Tok::Eq && next.start == here.end
     }
@@ -244,12 +247,6 @@ impl Parser<'_> {
             return None;
         }
         if self.at(Tok::Assign) { Some(AssignOp::Assign) } else { self.set_or_reset() }
-    }
-
-    fn unsupported_assign(&mut self, what: &str) -> StmtKind {
-        let diag = self.unsupported_diag(what);
-        self.error(diag);
-        StmtKind::Error
     }
 
     fn assign(&mut self, target: Expr) -> StmtKind {

@@ -2,11 +2,12 @@
 //! From: IEC 61131-3 §6.4 (language reference §2, §3.9).
 
 use super::cursor::Parser;
-use crate::syntax::ast::{EnumDecl, Expr, Init, Name, TypeBody, TypeDecl, TypeRef, TypeRefKind, VarDecl};
+use crate::syntax::ast::{Arg, EnumDecl, Expr, ExprKind, Init, Name, TypeBody, TypeDecl, TypeRef, TypeRefKind, VarDecl};
 use crate::syntax::keyword::Kw;
 use crate::syntax::lexer::Tok;
-use takt_base::Span;
 use takt_base::diag::{Code, Diag};
+use takt_base::{Profile, Span};
+use takt_image::types::PointerKind;
 
 impl Parser<'_> {
     /// TYPE ... END_TYPE; TYPE is the current token.
@@ -74,13 +75,17 @@ impl Parser<'_> {
     /// True at what can only be a type.
     pub(super) fn starts_type(&self) -> bool {
         let kw = self.kw();
-        kw.is_type() || matches!(kw, Kw::Array | Kw::Struct) || self.at(Tok::LParen)
+        let pointer = matches!(kw, Kw::Pointer | Kw::Reference) && self.nth(1).kw == Kw::To;
+        kw.is_type() || matches!(kw, Kw::Array | Kw::Struct | Kw::RefTo) || pointer || self.at(Tok::LParen)
     }
 
     /// `:= value`, if it stands here.
     pub(super) fn optional_init(&mut self) -> Option<Init> {
         if self.lost {
             return None;
+        }
+        if self.is_word_and_equals("REF") {
+            return Some(self.bound_init());
         }
         if self.at(Tok::Eq) || self.at(Tok::CEq) {
             let diag = self.expected_diag("`:=` before an initial value").help("write :=");
@@ -89,12 +94,24 @@ impl Parser<'_> {
             return None;
         }
         self.bump();
-        let init = self.init();
+        let init = if self.profile == Profile::Codesys2 { self.init_without_brackets() } else { self.init() };
         if self.at(Tok::Comma) {
             let diag = self.expected_diag("`;` behind the initial value");
             self.error(diag.help("write the values of an array in brackets: [1, 2, 3]"));
         }
         Some(init)
+    }
+
+    /// `REF= v`, which is `:= REF(v)`.
+    fn bound_init(&mut self) -> Init {
+        let start = self.here();
+        let name = Name { text: "REF".to_owned(), span: start };
+        self.bump();
+        self.bump();
+        let value = self.expr();
+        let callee = Box::new(Expr { kind: ExprKind::Name(name), span: start });
+        let kind = ExprKind::Call { callee, args: vec![Arg::Positional(value)] };
+        Init::Expr(Expr { kind, span: self.since(start) })
     }
 
     /// A type.
@@ -114,9 +131,9 @@ impl Parser<'_> {
             Kw::Array => self.array(),
             Kw::Struct => self.structure(),
             Kw::String | Kw::Wstring => self.string(),
-            Kw::RefTo => self.reference("REF_TO"),
-            Kw::Pointer if self.nth(1).kw == Kw::To => self.reference("POINTER TO"),
-            Kw::Reference if self.nth(1).kw == Kw::To => self.reference("REFERENCE TO"),
+            Kw::RefTo => self.pointer(PointerKind::RefTo),
+            Kw::Pointer if self.nth(1).kw == Kw::To => self.pointer(PointerKind::Pointer),
+            Kw::Reference if self.nth(1).kw == Kw::To => self.pointer(PointerKind::Reference),
             Kw::Union => self.union(),
             _ if self.at(Tok::LParen) => self.enumeration(None),
             kw if self.at(Tok::Word) && (!kw.is_reserved() || kw.is_type() || self.is_used_as_name(kw)) => self.named(),
@@ -301,13 +318,14 @@ impl Parser<'_> {
         TypeRefKind::Error
     }
 
-    fn reference(&mut self, what: &str) -> TypeRefKind {
-        self.unsupported_here(what);
-        if self.bump().kw != Kw::RefTo {
+    /// `REF_TO T`, `POINTER TO T`, `REFERENCE TO T`.
+    fn pointer(&mut self, kind: PointerKind) -> TypeRefKind {
+        if kind != PointerKind::RefTo {
+            self.codesys_form(kind.text());
             self.bump();
         }
-        self.type_ref();
-        TypeRefKind::Error
+        self.bump();
+        TypeRefKind::Pointer { kind, target: Box::new(self.type_ref()) }
     }
 
     /// A `;` that a declaration lacks; what follows on the next line is another declaration.

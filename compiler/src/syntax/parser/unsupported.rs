@@ -2,7 +2,8 @@
 
 use super::cursor::Parser;
 use crate::syntax::keyword::Kw;
-use crate::syntax::lexer::Tok;
+use crate::syntax::lexer::{Tok, is_graphic_body};
+use takt_base::Profile;
 use takt_base::diag::{Code, Diag};
 
 /// Declarations by opening and closing keyword.
@@ -65,6 +66,13 @@ impl Parser<'_> {
             Kw::InitialStep | Kw::Step | Kw::Transition if self.nth(1).kind == Tok::Word => {
                 self.unsupported_here("Sequential Function Chart");
                 self.skip_body();
+                true
+            }
+            Kw::None if self.at(Tok::Word) && is_graphic_body(self.text_of(self.peek())) && self.profile == Profile::Codesys2 => {
+                let what = format!("a graphical body ({})", self.text_of(self.peek()).trim_matches('_').replace("_BODY", ""));
+                let diag = self.unsupported_diag(&what);
+                self.soft(diag.help("export the unit as PLCopen XML, or rewrite its body in ST"));
+                self.bump();
                 true
             }
             Kw::None if self.is_instruction() => {

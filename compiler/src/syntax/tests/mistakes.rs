@@ -34,7 +34,7 @@ const MISTAKES: &[(&str, &str)] = &[
     ("CASE without labels", "PROGRAM pump\n  CASE state OF\n    a := 1;\n  END_CASE;\nEND_PROGRAM"),
     (
         "not in this version",
-        "FUNCTION_BLOCK pump\nVAR\n  p : POINTER TO INT;\nEND_VAR\n  a := p^;\nMETHOD m : INT\n  m := 1;\nEND_METHOD\nEND_FUNCTION_BLOCK",
+        "FUNCTION_BLOCK pump\nVAR\n  p : a.b;\nEND_VAR\n  a := p;\nMETHOD m : INT\n  m := 1;\nEND_METHOD\nEND_FUNCTION_BLOCK",
     ),
     ("wrong end of a unit", "FUNCTION_BLOCK pump\n  a := 1;\nEND_FUNCTION\nPROGRAM p\nEND_PROGRAM"),
 ];

@@ -30,10 +30,13 @@ fn pou(pou: &Pou) -> String {
         PouKind::Function => "function",
         PouKind::FunctionBlock => "fb",
         PouKind::Program => "program",
+        PouKind::Class => "class",
+        PouKind::Interface => "interface",
+        PouKind::Method => "method",
     };
     let external = if pou.external { "external" } else { "" };
     let result = optional(&pou.result, |t| format!(": {}", type_ref(t)));
-    list([kind.into(), external.into(), pou.name.text.clone(), result, all(&pou.sections, section), stmts(&pou.body)])
+    list([kind.into(), external.into(), pou.name.text.clone(), result, all(&pou.sections, section), stmts(&pou.body), all(&pou.objects.methods, self::pou)])
 }
 
 fn section(s: &VarSection) -> String {
@@ -85,6 +88,7 @@ fn type_ref(t: &TypeRef) -> String {
         }
         TypeRefKind::Enum(e) => enumeration(e),
         TypeRefKind::Struct(members) => list(["struct".into(), all(members, var)]),
+        TypeRefKind::Pointer { kind, target } => list([kind.text().to_lowercase().replace(' ', "_"), type_ref(target)]),
         TypeRefKind::Error => "?".into(),
     }
 }
@@ -163,6 +167,8 @@ fn stmt(s: &Stmt) -> String {
         StmtKind::Continue => "continue".into(),
         StmtKind::Return => "return".into(),
         StmtKind::Empty => ";".into(),
+        StmtKind::Attempt { target, value } => list(["?=".into(), expr(target), expr(value)]),
+        StmtKind::Bind { target, value } => list(["ref=".into(), expr(target), expr(value)]),
         StmtKind::Error => "?".into(),
     }
 }
@@ -192,6 +198,8 @@ pub(super) fn expr(e: &Expr) -> String {
         ExprKind::Index(base, items) => format!("{}[{}]", expr(base), all(items, expr)),
         ExprKind::Part { base, size, index } => format!("{}.%{}{index}", expr(base), letter(*size)),
         ExprKind::Call { callee, args } => list(["call".into(), expr(callee), all(args, arg)]),
+        ExprKind::Deref(e) => list(["^".into(), expr(e)]),
+        ExprKind::Null => "null".into(),
         ExprKind::Error => "?".into(),
     }
 }

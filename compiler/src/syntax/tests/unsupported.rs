@@ -14,25 +14,9 @@ fn lacks(what: &str, text: &str) {
 
 #[test]
 fn object_orientation() {
-    lacks(
-        "CLASS",
-        "CLASS c EXTENDS d VAR x : INT; END_VAR METHOD PUBLIC m : INT VAR_INPUT a : INT; END_VAR m := a; END_METHOD END_CLASS",
-    );
-    lacks("INTERFACE", "INTERFACE i EXTENDS j METHOD m : INT END_METHOD METHOD n END_METHOD END_INTERFACE");
-    lacks("METHOD", "FUNCTION_BLOCK b VAR x : INT; END_VAR METHOD PUBLIC m : INT m := 1; END_METHOD x := 1; END_FUNCTION_BLOCK");
-    lacks("METHOD", "FUNCTION_BLOCK b METHOD m VAR x : INT; END_VAR IF x THEN y(); END_IF; END_METHOD END_FUNCTION_BLOCK");
-    lacks(
-        "PROPERTY",
-        "FUNCTION_BLOCK b PROPERTY p : INT GET p := 1; END_GET SET x := p; END_SET END_PROPERTY END_FUNCTION_BLOCK",
-    );
-    lacks("EXTENDS", "FUNCTION_BLOCK b EXTENDS a.b VAR x : INT; END_VAR END_FUNCTION_BLOCK");
     lacks("IMPLEMENTS", "FUNCTION_BLOCK b IMPLEMENTS i, j x := 1; END_FUNCTION_BLOCK");
     lacks("FINAL", "FUNCTION_BLOCK FINAL b END_FUNCTION_BLOCK");
     lacks("ABSTRACT", "FUNCTION_BLOCK ABSTRACT b END_FUNCTION_BLOCK");
-    lacks("THIS", "FUNCTION_BLOCK b THIS.m(); END_FUNCTION_BLOCK");
-    lacks("THIS", "FUNCTION_BLOCK b x := THIS^.y + 1; END_FUNCTION_BLOCK");
-    lacks("SUPER", "FUNCTION_BLOCK b SUPER(); END_FUNCTION_BLOCK");
-    lacks("SUPER", "FUNCTION_BLOCK b SUPER^(); END_FUNCTION_BLOCK");
     lacks("PRIVATE", "FUNCTION_BLOCK b VAR PRIVATE x : INT; END_VAR END_FUNCTION_BLOCK");
 }
 
@@ -45,18 +29,6 @@ fn namespaces() {
     lacks("USING", "USING a.b, c;");
     lacks("USING", "FUNCTION f : INT USING a.b; f := 1; END_FUNCTION");
     lacks("namespace", "PROGRAM p VAR x : a.b.C; END_VAR END_PROGRAM");
-}
-
-#[test]
-fn references_and_pointers() {
-    lacks("REF_TO", "PROGRAM p VAR r : REF_TO INT; END_VAR END_PROGRAM");
-    lacks("POINTER TO", "PROGRAM p VAR r : POINTER TO ARRAY [0..1] OF INT; END_VAR END_PROGRAM");
-    lacks("REFERENCE TO", "PROGRAM p VAR r : REFERENCE TO INT; END_VAR END_PROGRAM");
-    lacks("REF_TO", "TYPE t : REF_TO INT; END_TYPE");
-    lacks("dereferencing", "PROGRAM p x := r^; END_PROGRAM");
-    lacks("dereferencing", "PROGRAM p r^[1].a := 1; END_PROGRAM");
-    lacks("REF", "PROGRAM p r := REF(x); END_PROGRAM");
-    lacks("NULL", "PROGRAM p IF r = NULL THEN y(); END_IF; END_PROGRAM");
 }
 
 #[test]
@@ -80,11 +52,6 @@ fn sections_and_types() {
 
 #[test]
 fn statements() {
-    lacks("?=", "PROGRAM p x ?= y; END_PROGRAM");
-    lacks("S=", "PROGRAM p x S= y AND z; END_PROGRAM");
-    lacks("R=", "PROGRAM p x.y r= y; END_PROGRAM");
-    lacks("REF=", "PROGRAM p x REF= y; END_PROGRAM");
-    lacks("chain", "PROGRAM p x := y := 1; END_PROGRAM");
     lacks("assignment inside", "PROGRAM p IF (x := y) THEN z(); END_IF; END_PROGRAM");
     lacks("label", "PROGRAM p again: x := 1; END_PROGRAM");
     lacks("label", "PROGRAM p again:\n x := 1; END_PROGRAM");
@@ -114,4 +81,11 @@ fn an_open_construct_ends_at_the_next_unit() {
     assert_eq!(printed("FUNCTION_BLOCK b METHOD m x := 1; END_FUNCTION_BLOCK PROGRAM p END_PROGRAM"), "(fb b) (program p)");
     assert_eq!(printed("CLASS c METHOD m END_METHOD PROGRAM p END_PROGRAM"), "(program p)");
     assert_eq!(printed("PROGRAM a VAR_CONFIG x.y : INT; END_PROGRAM PROGRAM p END_PROGRAM"), "(program a) (program p)");
+}
+
+/// Forms of another profile are understood and named.
+#[test]
+fn vendor_forms() {
+    assert_eq!(codes("PROGRAM p x S= y AND z; END_PROGRAM"), ["P0014 1:13"]);
+    assert_eq!(codes("PROGRAM p x := y := 1; x := 1; END_PROGRAM"), ["P0014 1:18"]);
 }
