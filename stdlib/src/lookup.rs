@@ -134,15 +134,11 @@ pub fn converts(from: ConversionType, to: ConversionType) -> bool {
     }
 }
 
-/// The table of §2.1. Real and bit string convert at equal width only: the bits are the same.
+/// The table of §2.1. Between a real and a bit string of another width only the vendors convert: see [`transfers_bits`].
 fn elementary_converts(from: Elementary, to: Elementary) -> bool {
-    let bits = |t: Elementary| t.is_bit() && t != Elementary::Bool;
     let number = |t: Elementary| t.is_int() || t.is_bit();
     if from.is_char() || to.is_char() {
         return char_converts(from, to);
-    }
-    if (from.is_real() && bits(to)) || (bits(from) && to.is_real()) {
-        return from.bytes() == to.bytes();
     }
     if from.is_date() && to.is_date() {
         return date_converts(from, to);
@@ -152,6 +148,13 @@ fn elementary_converts(from: Elementary, to: Elementary) -> bool {
     }
     let scalar = |t: Elementary| number(t) || t.is_real();
     scalar(from) || scalar(to)
+}
+
+/// True between a real and a bit string. In the standard their bits are the same, so they must be of one width; the vendors convert
+/// the number (§2.1, row f).
+pub fn transfers_bits(from: Elementary, to: Elementary) -> bool {
+    let bits = |t: Elementary| t.is_bit() && t != Elementary::Bool;
+    from.is_real() && bits(to) || bits(from) && to.is_real()
 }
 
 /// Characters convert to each other and to bit strings that hold their code; BYTE and WORD back.

@@ -76,7 +76,7 @@ fn conversion_names() {
         ("DATE_TO_TOD", "-"),
         ("TOD_TO_DT", "-"),
         ("DWORD_TO_REAL", "DWORD to REAL"),
-        ("REAL_TO_LWORD", "-"),
+        ("REAL_TO_LWORD", "REAL to LWORD"),
         ("REAL_TO_BOOL", "REAL to BOOL"),
         ("STRING_TO_TIME", "STRING to TIME"),
         ("WSTRING_TO_STRING", "WSTRING to STRING"),

@@ -207,3 +207,33 @@ fn s12_a_constant_may_be_declared_behind_its_use_in_a_bound() {
     plc.scan(0).unwrap();
     assert_eq!(plc.get("main.b.y"), "7");
 }
+
+#[test]
+fn l2_6_conversions_between_bits_and_numbers() {
+    let vars = "d, dr : DWORD; r : REAL; b : BOOL;";
+    let body = "d := INT_TO_DWORD(INT#-1); r := DWORD_TO_REAL(16#3F800000); dr := REAL_TO_DWORD(1.0); b := BYTE_TO_BOOL(BYTE#2);";
+    let text = format!("PROGRAM main VAR {vars} END_VAR {body} END_PROGRAM");
+    for profile in Profile::ALL {
+        let mut plc = Plc::new_in(profile, &text);
+        plc.scan(0).unwrap();
+        let want = match profile {
+            Profile::Std => ["65535", "1.0", "1065353216", "FALSE"],
+            _ => ["4294967295", "1065353200.0", "1", "TRUE"],
+        };
+        assert_eq!(["d", "r", "dr", "b"].map(|v| plc.get(&format!("main.{v}"))), want, "{profile:?}");
+    }
+    let other_width = "PROGRAM main VAR w : WORD := 16#9C40; r : REAL; END_VAR r := WORD_TO_REAL(w); END_PROGRAM";
+    assert_eq!(codes(Profile::Std, other_width), [(Code::TypeMismatch, Severity::Error)]);
+    let mut plc = Plc::new_in(Profile::Codesys2, other_width);
+    plc.scan(0).unwrap();
+    assert_eq!(plc.get("main.r"), "40000.0");
+}
+
+#[test]
+fn s2_11_integers_have_bits_in_codesys() {
+    let text = "PROGRAM main VAR i : INT := 5; x : BOOL; END_VAR x := i.2; i.0 := FALSE; i.15 := TRUE; END_PROGRAM";
+    assert!(codes(Profile::Std, text).iter().all(|c| c.0 == Code::BadOperand));
+    let mut plc = Plc::new_in(Profile::Codesys, text);
+    plc.scan(0).unwrap();
+    assert_eq!(["x", "i"].map(|v| plc.get(&format!("main.{v}"))), ["TRUE", "-32764"]);
+}

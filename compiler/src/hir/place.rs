@@ -157,7 +157,7 @@ impl Builder<'_> {
                 }
             },
         };
-        if !self.ensure_global(id) && !(self.place_only && self.hir.globals[id].ty != self.error) {
+        if !(self.ensure_global(id) || self.place_only && self.hir.globals[id].ty != self.error) {
             let label = format!("the value of `{}` depends on itself", n.text);
             self.error(Code::NotConstant, n.span, label);
             return None;
@@ -345,7 +345,9 @@ impl Builder<'_> {
         if base.place.ty == self.error {
             return None;
         }
-        let whole = self.elementary_or_base(base.place.ty).filter(|e| e.is_bit() && *e != Elementary::Bool);
+        let whole = self
+            .elementary_or_base(base.place.ty)
+            .filter(|e| *e != Elementary::Bool && (e.is_bit() || e.is_int() && self.profile(span).is_codesys()));
         let Some(whole) = whole.filter(|_| !ends_in_part(&base.place)) else {
             let help = "convert an integer to a bit string first, for example with INT_TO_WORD";
             let label = format!("{} has no bits to name", self.show(base.place.ty));

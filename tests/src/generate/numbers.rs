@@ -2,7 +2,7 @@
 
 use super::{Generator, SCALARS, Ty, is_constant};
 use takt_image::Elementary as E;
-use takt_stdlib::lookup::{ConversionType, converts};
+use takt_stdlib::lookup::{ConversionType, converts, transfers_bits};
 
 impl Generator {
     pub(super) fn int_expr(&mut self, e: E, depth: usize) -> String {
@@ -87,7 +87,9 @@ impl Generator {
 
     /// A conversion that the library has.
     pub(super) fn conversion(&mut self, to: E, depth: usize) -> String {
-        let allowed = |from: E| from != to && converts(ConversionType::Elementary(from), ConversionType::Elementary(to));
+        let other_width = |from: E| transfers_bits(from, to) && from.bytes() != to.bytes();
+        let known = |from: E| converts(ConversionType::Elementary(from), ConversionType::Elementary(to));
+        let allowed = |from: E| from != to && known(from) && !other_width(from);
         let sources: Vec<E> = SCALARS.iter().copied().filter(|f| allowed(*f)).collect();
         if sources.is_empty() {
             return self.variable_expr(Ty::E(to), depth - 1);

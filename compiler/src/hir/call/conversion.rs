@@ -4,11 +4,11 @@ use crate::hir::builder::Builder;
 use crate::hir::constant::{self, FoldError};
 use crate::hir::convert::Operand;
 use crate::hir::model::*;
-use takt_base::{Code, Diag, Span};
+use takt_base::{Code, Diag, Profile, Span};
 use takt_image::types::Type;
 use takt_image::{Elementary, TypeId};
 use takt_stdlib::catalog::Intrinsic;
-use takt_stdlib::lookup::{converts, truncates};
+use takt_stdlib::lookup::{converts, transfers_bits, truncates};
 use takt_stdlib::{ConversionType, natives::native_conversion};
 
 /// Capacity of the text of a scalar.
@@ -37,11 +37,22 @@ impl Builder<'_> {
         }
         let Some(source) = self.conversion_type(&arg) else { return self.no_conversion(&arg, to, span) };
         let known = if truncate { truncates(source, to) } else { converts(source, to) };
-        if from.is_none() && !known && source != to {
+        let other_width = self.is_transfer_of_other_width(source, to, span);
+        if other_width || from.is_none() && !known && source != to {
             return self.no_conversion(&arg, to, span);
         }
         let expr = self.convert_to(arg, source, to, truncate);
         Operand::fixed(Expr { span, ..expr })
+    }
+
+    /// Real and bit string of another width: the standard has no such conversion.
+    fn is_transfer_of_other_width(&self, from: ConversionType, to: ConversionType, span: Span) -> bool {
+        match (from, to) {
+            (ConversionType::Elementary(a), ConversionType::Elementary(b)) => {
+                transfers_bits(a, b) && a.bytes() != b.bytes() && !self.profile(span).converts_bits_as_numbers()
+            }
+            _ => false,
+        }
     }
 
     /// The argument in the type that the name says; a string of any capacity.
@@ -94,7 +105,10 @@ impl Builder<'_> {
             (ConversionType::Elementary(a), ConversionType::Elementary(b)) if loses(&arg, a, b) => {
                 self.fold_error(FoldError::Overflow, span).expr
             }
-            (ConversionType::Elementary(a), ConversionType::Elementary(b)) => self.wrap(inline(a, b), arg, ty),
+            (ConversionType::Elementary(a), ConversionType::Elementary(b)) => {
+                let how = inline(self.profile(span), a, b);
+                self.wrap(how, arg, ty)
+            }
             _ => self.wrap(Conversion::String, arg, ty),
         }
     }
@@ -124,17 +138,18 @@ fn loses(arg: &Expr, from: Elementary, to: Elementary) -> bool {
     }
 }
 
-/// How the compiler converts between scalars by itself (library reference §2.1, profile std).
-fn inline(from: Elementary, to: Elementary) -> Conversion {
+/// How the compiler converts between scalars by itself (library reference §2.1, §2.6).
+fn inline(profile: Profile, from: Elementary, to: Elementary) -> Conversion {
+    let transfers = !profile.converts_bits_as_numbers();
     match (from, to) {
-        (_, Elementary::Bool) if from.is_bit() => Conversion::LowBit,
+        (_, Elementary::Bool) if from.is_bit() && !profile.bits_to_bool_is_nonzero() => Conversion::LowBit,
         (_, Elementary::Bool) => Conversion::NonZero,
         _ if from.is_real() && to.is_real() => Conversion::Real,
-        _ if from.is_real() && to.is_bit() => Conversion::Bits,
-        _ if from.is_bit() && to.is_real() && from != Elementary::Bool => Conversion::Bits,
+        _ if from.is_real() && to.is_bit() && transfers => Conversion::Bits,
+        _ if from.is_bit() && to.is_real() && from != Elementary::Bool && transfers => Conversion::Bits,
         _ if from.is_real() => Conversion::RealToInt,
         _ if to.is_real() => Conversion::IntToReal,
-        _ if from.is_signed_int() && to.is_bit() && to.bits() > from.bits() => Conversion::ZeroExtend,
+        _ if from.is_signed_int() && to.is_bit() && to.bits() > from.bits() && transfers => Conversion::ZeroExtend,
         _ => Conversion::Integer,
     }
 }

@@ -163,7 +163,7 @@ fn conversion_functions() {
             ("STRING_TO_INT(s)", "INT"),
             ("STRING_TO_WSTRING(s8)", "WSTRING[8]"),
             ("CHAR_TO_BYTE(vCHAR)", "BYTE"),
-            ("WORD_TO_REAL(vWORD)", "P1003"),
+            ("WORD_TO_REAL(vWORD)", "P2001"),
             ("INT_TO_CHAR(i)", "P1003"),
             ("TO_INT(vCHAR)", "P2001"),
             ("INT_TO_REAL(IN := i)", "REAL"),
