@@ -26,16 +26,20 @@ END_CLASS ";
 
 #[test]
 fn s4_4_methods_of_a_class() {
-    let text = format!("{COUNTER} PROGRAM main VAR c, d : Counter; list : ARRAY[1..3] OF Counter; i, a, b : INT; END_VAR
+    let text = format!(
+        "{COUNTER} PROGRAM main VAR c, d : Counter; list : ARRAY[1..3] OF Counter; i, a, b : INT; END_VAR
         a := c.up(inc := 3); a := c.up(); d.reset(); b := d.up(10);
-        FOR i := 1 TO 3 DO list[i].up(i); END_FOR END_PROGRAM");
-    let want = [("main.a", "9"), ("main.b", "10"), ("main.c.value", "9"), ("main.list[1].value", "6"), ("main.list[3].value", "8")];
+        FOR i := 1 TO 3 DO list[i].up(i); END_FOR END_PROGRAM"
+    );
+    let want =
+        [("main.a", "9"), ("main.b", "10"), ("main.c.value", "9"), ("main.list[1].value", "6"), ("main.list[3].value", "8")];
     check(&text, 1, &want);
 }
 
 #[test]
 fn s4_7_all_forms_of_arguments_and_results() {
-    check("TYPE P : STRUCT x, y : INT; END_STRUCT END_TYPE
+    check(
+        "TYPE P : STRUCT x, y : INT; END_STRUCT END_TYPE
         FUNCTION_BLOCK F VAR n : INT; END_VAR
           METHOD PUBLIC point : P VAR_INPUT x, y : INT; END_VAR point.x := x; point.y := y + n; END_METHOD
           METHOD PUBLIC text : STRING[20] VAR_INPUT s : STRING[20]; END_VAR text := CONCAT('<', CONCAT(s, '>')); END_METHOD
@@ -49,13 +53,27 @@ fn s4_7_all_forms_of_arguments_and_results() {
         p := f.point(1, y := 2);
         s := f.text('hi');
         r := f.sum(a := p, io := i, q => q, d => d) + f.sum(p, i, NOT q => nq);
-        f.proc(o => o); f(); END_PROGRAM".replace("+ f.sum(p, i, NOT q => nq)", "+ f.sum(a := p, io := i, NOT q => nq)").as_str(),
+        f.proc(o => o); f(); END_PROGRAM"
+            .replace("+ f.sum(p, i, NOT q => nq)", "+ f.sum(a := p, io := i, NOT q => nq)")
+            .as_str(),
         1,
-        &[("main.p.x", "1"), ("main.p.y", "2"), ("main.s", "'<hi>'"), ("main.r", "1.0"), ("main.i", "18"),
-          ("main.q", "TRUE"), ("main.nq", "FALSE"), ("main.d", "1"), ("main.o", "42"), ("main.f.n", "102")]);
+        &[
+            ("main.p.x", "1"),
+            ("main.p.y", "2"),
+            ("main.s", "'<hi>'"),
+            ("main.r", "1.0"),
+            ("main.i", "18"),
+            ("main.q", "TRUE"),
+            ("main.nq", "FALSE"),
+            ("main.d", "1"),
+            ("main.o", "42"),
+            ("main.f.n", "102"),
+        ],
+    );
 }
 
-const SHAPES: &str = "INTERFACE Shape METHOD area : REAL END_METHOD METHOD scale VAR_INPUT k : REAL; END_VAR END_METHOD END_INTERFACE
+const SHAPES: &str =
+    "INTERFACE Shape METHOD area : REAL END_METHOD METHOD scale VAR_INPUT k : REAL; END_VAR END_METHOD END_INTERFACE
     INTERFACE Named METHOD name : STRING[10] END_METHOD END_INTERFACE
     INTERFACE Solid EXTENDS Shape, Named METHOD volume : REAL END_METHOD END_INTERFACE
     CLASS Square IMPLEMENTS Shape VAR PUBLIC side : REAL := 2.0; END_VAR
@@ -75,13 +93,16 @@ const SHAPES: &str = "INTERFACE Shape METHOD area : REAL END_METHOD METHOD scale
 
 #[test]
 fn s4_4_interfaces_bind_dynamically() {
-    let text = format!("{SHAPES} PROGRAM main VAR sq : Square; cube : Cube; disk : Disk; s : Shape; list : ARRAY[1..3] OF Shape;
+    let text = format!(
+        "{SHAPES} PROGRAM main VAR sq : Square; cube : Cube; disk : Disk; s : Shape; list : ARRAY[1..3] OF Shape;
         i : INT; total, one : REAL; isnull, same, other : BOOL; END_VAR
         isnull := s = NULL;
         list[1] := sq; list[2] := cube; list[3] := disk;
         FOR i := 1 TO 3 DO list[i].scale(k := 2.0); total := total + list[i].area(); END_FOR
-        s := list[3]; one := s.area(); same := s = list[3]; other := s <> disk; END_PROGRAM");
-    let want = [("main.total", "124.0"), ("main.one", "12.0"), ("main.isnull", "TRUE"), ("main.same", "TRUE"), ("main.other", "FALSE")];
+        s := list[3]; one := s.area(); same := s = list[3]; other := s <> disk; END_PROGRAM"
+    );
+    let want =
+        [("main.total", "124.0"), ("main.one", "12.0"), ("main.isnull", "TRUE"), ("main.same", "TRUE"), ("main.other", "FALSE")];
     check(&text, 1, &want);
 }
 
@@ -144,13 +165,15 @@ fn s4_4_this_and_in_out_bind_dynamically_and_instances_statically() {
 
 #[test]
 fn copies_of_instances_keep_their_class() {
-    check("CLASS A VAR PUBLIC v : INT; b : BYTE; END_VAR METHOD PUBLIC who : INT who := 1; END_METHOD END_CLASS
+    check(
+        "CLASS A VAR PUBLIC v : INT; b : BYTE; END_VAR METHOD PUBLIC who : INT who := 1; END_METHOD END_CLASS
         CLASS B EXTENDS A VAR PUBLIC w : BYTE := 16#07; END_VAR METHOD PUBLIC OVERRIDE who : INT who := 2; END_METHOD END_CLASS
         FUNCTION copy : INT VAR_IN_OUT dst, src : A; END_VAR dst := src; copy := dst.who() * 10 + src.who(); END_FUNCTION
         PROGRAM main VAR a, a2 : A; b : B; r, r2 : INT; END_VAR
         b.v := 5; a2.v := 6; r := copy(a, b); r2 := copy(b, a2); END_PROGRAM",
         1,
-        &[("main.r", "12"), ("main.a.v", "5"), ("main.r2", "21"), ("main.b.v", "6"), ("main.b.w", "7")]);
+        &[("main.r", "12"), ("main.a.v", "5"), ("main.r2", "21"), ("main.b.v", "6"), ("main.b.w", "7")],
+    );
 }
 
 #[test]
@@ -170,7 +193,9 @@ fn properties_are_read_and_assigned_like_variables() {
 
 #[test]
 fn vendor_forms() {
-    check_in(Profile::Codesys, "FUNCTION_BLOCK ABSTRACT Base VAR n : INT; END_VAR
+    check_in(
+        Profile::Codesys,
+        "FUNCTION_BLOCK ABSTRACT Base VAR n : INT; END_VAR
           METHOD ABSTRACT inc : INT END_METHOD
           METHOD run : INT run := THIS^.inc() + THIS^.n; END_METHOD
           n := n + 1; END_FUNCTION_BLOCK
@@ -181,12 +206,14 @@ fn vendor_forms() {
         METHOD PRIVATE twice : INT VAR_INPUT x : INT; END_VAR twice := 2 * x; r := r + 1; END_METHOD
         f(); r := twice(f.run()); seen := f.n; END_PROGRAM",
         1,
-        &[("main.f.n", "16"), ("main.seen", "16"), ("main.r", "42")]);
+        &[("main.f.n", "16"), ("main.seen", "16"), ("main.r", "42")],
+    );
 }
 
 #[test]
 fn recursion_loops_and_globals_in_methods() {
-    check("VAR_GLOBAL g : INT := 3; shared : Node; END_VAR
+    check(
+        "VAR_GLOBAL g : INT := 3; shared : Node; END_VAR
         CLASS Node VAR depth : DINT; sum : LINT; END_VAR
           METHOD PUBLIC fact : DINT VAR_INPUT n : DINT; END_VAR
             IF n <= 1 THEN fact := 1; ELSE fact := n * fact(n - 1); END_IF depth := depth + 1; END_METHOD
@@ -196,7 +223,8 @@ fn recursion_loops_and_globals_in_methods() {
         PROGRAM main VAR_EXTERNAL shared : Node; END_VAR VAR f : DINT; l : LINT; END_VAR
         f := shared.fact(5); l := shared.loop(); END_PROGRAM",
         1,
-        &[("main.f", "120"), ("main.l", "75"), ("g", "13"), ("shared.depth", "5")]);
+        &[("main.f", "120"), ("main.l", "75"), ("g", "13"), ("shared.depth", "5")],
+    );
 }
 
 #[test]
@@ -218,4 +246,22 @@ fn inherited_edge_inputs_are_seen_by_both_bodies() {
         PROGRAM main VAR d : Derived; k : BOOL; END_VAR k := NOT k; d(clk := k); END_PROGRAM",
         6,
         &[("main.d.n", "3"), ("main.d.m", "3")]);
+}
+
+#[test]
+fn references_to_instances_bind_dynamically() {
+    let text = format!("{SHAPES} PROGRAM main VAR sq : Square; cube : Cube; r : REF_TO Square; c : REF_TO Cube; s : Shape; x, y : REAL; a, b : BOOL; END_VAR
+        r := REF(sq); x := r^.area(); c ?= r; a := c = NULL;
+        r := REF(cube); y := r^.area(); c ?= r; b := c <> NULL; IF b THEN c^.scale(2.0); END_IF
+        s := r^; s.scale(2.0); END_PROGRAM");
+    check(&text, 1, &[("main.x", "4.0"), ("main.y", "24.0"), ("main.a", "TRUE"), ("main.b", "TRUE"), ("main.cube.side", "8.0")]);
+}
+
+#[test]
+fn structures_extend_structures_in_codesys() {
+    let text = "TYPE A : STRUCT x : INT := 1; y : BYTE := 2; END_STRUCT END_TYPE
+        TYPE B EXTENDS A : STRUCT z : LINT := 3; END_STRUCT END_TYPE
+        TYPE C : STRUCT EXTENDS B w : INT := 4; END_STRUCT END_TYPE
+        PROGRAM main VAR c : C := (x := 10); s : LINT; END_VAR s := c.x + c.z + c.w; END_PROGRAM";
+    check_in(Profile::Codesys, text, 1, &[("main.s", "17"), ("main.c.y", "2")]);
 }

@@ -75,7 +75,15 @@ impl Builder<'_> {
         self.declare_local(&decl.name, Local::Var(var));
     }
 
-    pub(super) fn push_var(&mut self, id: PouId, name: &ast::Name, ty: TypeId, role: Role, storage: Storage, init: Const) -> VarId {
+    pub(super) fn push_var(
+        &mut self,
+        id: PouId,
+        name: &ast::Name,
+        ty: TypeId,
+        role: Role,
+        storage: Storage,
+        init: Const,
+    ) -> VarId {
         let init = if self.charge(constant::leaves(&init) - 1, name.span) { init } else { Const::Zero };
         let var = Var { name: name.text.clone(), ty, role, storage, init, edge: None, span: name.span };
         self.hir.pous[id].vars.push(var)

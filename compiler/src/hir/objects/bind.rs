@@ -36,7 +36,9 @@ impl Builder<'_> {
         if var.role == Role::InOut {
             let (span, help) = (var.span, "give the method a VAR_IN_OUT of its own, and pass the variable on");
             let diag = Diag::new(Code::NotSupportedYet, name.span, "a VAR_IN_OUT of the function block").also(span, "declared");
-            self.report(diag.message("a VAR_IN_OUT can't be used in a method: it is bound during calls of the body only").help(help));
+            self.report(
+                diag.message("a VAR_IN_OUT can't be used in a method: it is bound during calls of the body only").help(help),
+            );
             return None;
         }
         let access = match self.scope.fixed_members.get(&id) {
@@ -58,7 +60,8 @@ impl Builder<'_> {
         let owner = &self.hir.pous[self.own_type()?];
         let [Step::Field(i), rest @ ..] = &place.path[..] else { return None };
         let (id, var) = owner.vars.enumerate().find(|(_, v)| v.storage == Storage::Field(*i))?;
-        let fixed = self.scope.fixed_members.get(&id).or_else(|| self.scope.read_only.get(&id).filter(|_| self.scope.members.is_empty()));
+        let fixed =
+            self.scope.fixed_members.get(&id).or_else(|| self.scope.read_only.get(&id).filter(|_| self.scope.members.is_empty()));
         if fixed != Some(&ReadOnly::Constant) {
             return None;
         }
@@ -98,7 +101,9 @@ impl Builder<'_> {
             return None;
         }
         if let Some(first) = args.iter().find_map(crate::hir::body::arg_expr) {
-            self.report(Diag::new(Code::WrongArgumentCount, first.span, "SUPER() has no arguments").help("assign the inputs before"));
+            self.report(
+                Diag::new(Code::WrongArgumentCount, first.span, "SUPER() has no arguments").help("assign the inputs before"),
+            );
             return None;
         }
         self.note_call(object.ty, span);

@@ -53,18 +53,23 @@ impl Builder<'_> {
         if self.hir.pous[owner].kind != PouKind::Interface && !self.is_abstract(owner) {
             let at = self.symbols.pous[owner].decl.name.span;
             let label = format!("`{}` is not ABSTRACT", self.hir.pous[owner].name);
-            self.report(Diag::new(Code::AbstractMethod, span, label).also(at, "declared").help("write ABSTRACT in front of its name too"));
+            self.report(
+                Diag::new(Code::AbstractMethod, span, label).also(at, "declared").help("write ABSTRACT in front of its name too"),
+            );
         }
         if let Some(first) = decl.body.first() {
             let label = format!("the body of `{}`, which is ABSTRACT", self.hir.pous[id].name);
-            self.report(Diag::new(Code::AbstractMethod, first.span, label).help("leave the body to the types that extend this one"));
+            self.report(
+                Diag::new(Code::AbstractMethod, first.span, label).help("leave the body to the types that extend this one"),
+            );
         }
     }
 
     /// The methods that CODESYS calls by itself.
     fn check_life_cycle(&mut self, decl: &ast::Pou) {
         if ["FB_INIT", "FB_REINIT", "FB_EXIT"].iter().any(|n| decl.name.is(n)) {
-            let diag = Diag::new(Code::NotSupportedYet, decl.name.span, "a method like any other here").severity(Severity::Warning);
+            let diag =
+                Diag::new(Code::NotSupportedYet, decl.name.span, "a method like any other here").severity(Severity::Warning);
             let diag = diag.message("this method is not called at start and end by this version");
             self.report(diag.help("give the variables initial values, or call the method in the first cycle"));
         }
@@ -95,7 +100,11 @@ impl Builder<'_> {
         let new = decl.name.span;
         if modifiers.is_override.is_none() && decl.objects.accessor.is_none() && !self.profile(new).is_vendor() {
             let label = format!("replaces `{}`", self.hir.pous[old].name);
-            self.report(Diag::new(Code::MissingOverride, new, label).also(at, "declared").help("write METHOD OVERRIDE, or choose another name"));
+            self.report(
+                Diag::new(Code::MissingOverride, new, label)
+                    .also(at, "declared")
+                    .help("write METHOD OVERRIDE, or choose another name"),
+            );
         }
         let (access, old_access) = (self.method_access(id).0, self.method_access(old).0);
         if access != old_access && modifiers.access.is_some() {

@@ -26,7 +26,10 @@ impl Builder<'_> {
     fn base_of(&mut self, id: PouId, decl: &ast::Pou) -> Option<PouId> {
         if let Some(second) = decl.objects.extends.get(1) {
             let label = "a second base";
-            self.report(Diag::new(Code::NotABase, second.span, label).help("a type extends one type; it may implement several interfaces"));
+            self.report(
+                Diag::new(Code::NotABase, second.span, label)
+                    .help("a type extends one type; it may implement several interfaces"),
+            );
         }
         let name = decl.objects.extends.first()?;
         let kinds: &[PouKind] = match decl.kind {
@@ -37,7 +40,10 @@ impl Builder<'_> {
         let base = self.named_base(name, kinds, "extends")?;
         if !self.ensure_pou(base, name.span) {
             let label = format!("`{}` extends itself", decl.name.text);
-            self.report(Diag::new(Code::InheritanceCycle, name.span, label).help("remove one EXTENDS; put what both need into a third type"));
+            self.report(
+                Diag::new(Code::InheritanceCycle, name.span, label)
+                    .help("remove one EXTENDS; put what both need into a third type"),
+            );
             return None;
         }
         let modifiers = &self.symbols.pous[base].decl.objects.modifiers;
@@ -100,7 +106,10 @@ impl Builder<'_> {
                 list.push(base);
             } else {
                 let label = format!("`{}` extends itself", decl.name.text);
-                self.report(Diag::new(Code::InheritanceCycle, name.span, label).help("remove one EXTENDS; put what both need into a third type"));
+                self.report(
+                    Diag::new(Code::InheritanceCycle, name.span, label)
+                        .help("remove one EXTENDS; put what both need into a third type"),
+                );
             }
         }
         self.objects.interfaces.insert(id, list);
@@ -178,8 +187,11 @@ impl Builder<'_> {
             return first.map(|(v, _)| (Section::Hidden, v)).into_iter().collect();
         };
         let Some(Type::Instance(record)) = base.instance.map(|ty| self.ty(ty)) else { return Vec::new() };
-        let mut fields: Vec<(u32, VarId)> =
-            base.vars.enumerate().filter_map(|(v, var)| if let Storage::Field(i) = var.storage { Some((i, v)) } else { None }).collect();
+        let mut fields: Vec<(u32, VarId)> = base
+            .vars
+            .enumerate()
+            .filter_map(|(v, var)| if let Storage::Field(i) = var.storage { Some((i, v)) } else { None })
+            .collect();
         fields.sort_by_key(|f| f.0);
         fields.into_iter().filter_map(|(i, v)| Some((record.fields.get(i as usize)?.section, v))).collect()
     }

@@ -92,7 +92,10 @@ impl Builder<'_> {
     /// What a dynamic call of `key` on a `ty` can run, by class number; empty if there is nothing to choose.
     pub(in crate::hir) fn dispatch(&self, ty: PouId, key: &str) -> Vec<(u32, PouId)> {
         let classes = self.classes_of(ty).into_iter();
-        classes.filter_map(|(number, id)| Some((number, self.find_method(id, key)?))).filter(|(_, m)| !self.is_signature(*m)).collect()
+        classes
+            .filter_map(|(number, id)| Some((number, self.find_method(id, key)?)))
+            .filter(|(_, m)| !self.is_signature(*m))
+            .collect()
     }
 
     /// The access of a method and whether it is written there. In an interface all is PUBLIC.

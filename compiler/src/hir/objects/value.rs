@@ -21,7 +21,7 @@ impl Builder<'_> {
     }
 
     /// An instance or a reference as a value of the interface type `to`; `None` if this is no matter of interfaces.
-    pub(in crate::hir) fn to_interface(&mut self, e: &Expr, to: TypeId) -> Option<Expr> {
+    pub(in crate::hir) fn interface_value(&mut self, e: &Expr, to: TypeId) -> Option<Expr> {
         if !matches!(self.ty(to), Type::Reference { .. }) {
             return None;
         }
@@ -82,7 +82,7 @@ impl Builder<'_> {
         let ty = if ra && a.expr.ty != null { a.expr.ty } else { b.expr.ty };
         let side = |x: &mut Self, o: &Operand| match is_reference(x, o.expr.ty) {
             true => Some(Expr { ty, ..o.expr.clone() }),
-            false if matches!(x.ty(o.expr.ty), Type::Instance(_)) && x.type_unit(ty).is_some() => x.to_interface(&o.expr, ty),
+            false if matches!(x.ty(o.expr.ty), Type::Instance(_)) && x.type_unit(ty).is_some() => x.interface_value(&o.expr, ty),
             false => None,
         };
         let (Some(a), Some(b)) = (side(self, a), side(self, b)) else {
@@ -118,7 +118,9 @@ impl Builder<'_> {
             return Some(StmtKind::Assign { target, value });
         }
         let from = self.pointee(o.expr.ty).map_or(o.expr.ty, |p| p.0);
-        let numbered = self.type_unit(from).is_some_and(|id| self.hir.pous[id].class.is_some() || self.hir.pous[id].kind == PouKind::Interface);
+        let numbered = self
+            .type_unit(from)
+            .is_some_and(|id| self.hir.pous[id].class.is_some() || self.hir.pous[id].kind == PouKind::Interface);
         if !numbered {
             let label = format!("{} ?= {}", self.show(ty), self.show(o.expr.ty));
             let help = "?= assigns a reference to an instance, if that is of the wanted type";

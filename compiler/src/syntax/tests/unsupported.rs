@@ -31,8 +31,6 @@ fn sections_and_types() {
     lacks("VAR_INST", "FUNCTION_BLOCK f VAR_INST x : INT; END_VAR END_FUNCTION_BLOCK");
     lacks("PERSISTENT", "VAR_GLOBAL PERSISTENT RETAIN x : INT; END_VAR");
     lacks("OVERLAP", "TYPE t : STRUCT OVERLAP a : INT; END_STRUCT; END_TYPE");
-    lacks("EXTENDS", "TYPE t : STRUCT EXTENDS u a : INT; END_STRUCT; END_TYPE");
-    lacks("EXTENDS", "TYPE t EXTENDS u : STRUCT a : INT; END_STRUCT; END_TYPE");
     lacks("UNION", "TYPE t : UNION a : REAL; b : DWORD; END_UNION; END_TYPE");
     lacks("UNION", "TYPE t : UNION a : REAL; b : DWORD; END_UNION END_TYPE");
     lacks("relative address", "TYPE t : STRUCT a AT %B2 : USINT; END_STRUCT; END_TYPE");
