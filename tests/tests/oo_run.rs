@@ -247,3 +247,21 @@ fn inherited_edge_inputs_are_seen_by_both_bodies() {
         6,
         &[("main.d.n", "3"), ("main.d.m", "3")]);
 }
+
+#[test]
+fn references_to_instances_bind_dynamically() {
+    let text = format!("{SHAPES} PROGRAM main VAR sq : Square; cube : Cube; r : REF_TO Square; c : REF_TO Cube; s : Shape; x, y : REAL; a, b : BOOL; END_VAR
+        r := REF(sq); x := r^.area(); c ?= r; a := c = NULL;
+        r := REF(cube); y := r^.area(); c ?= r; b := c <> NULL; IF b THEN c^.scale(2.0); END_IF
+        s := r^; s.scale(2.0); END_PROGRAM");
+    check(&text, 1, &[("main.x", "4.0"), ("main.y", "24.0"), ("main.a", "TRUE"), ("main.b", "TRUE"), ("main.cube.side", "8.0")]);
+}
+
+#[test]
+fn structures_extend_structures_in_codesys() {
+    let text = "TYPE A : STRUCT x : INT := 1; y : BYTE := 2; END_STRUCT END_TYPE
+        TYPE B EXTENDS A : STRUCT z : LINT := 3; END_STRUCT END_TYPE
+        TYPE C : STRUCT EXTENDS B w : INT := 4; END_STRUCT END_TYPE
+        PROGRAM main VAR c : C := (x := 10); s : LINT; END_VAR s := c.x + c.z + c.w; END_PROGRAM";
+    check_in(Profile::Codesys, text, 1, &[("main.s", "17"), ("main.c.y", "2")]);
+}

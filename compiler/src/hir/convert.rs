@@ -290,7 +290,7 @@ impl Builder<'_> {
         if o.expr.ty == to {
             return Ok(o.expr);
         }
-        if let Some(e) = self.as_interface_value(&o.expr, to) {
+        if let Some(e) = self.interface_value(&o.expr, to) {
             return Ok(e);
         }
         if self.pointee(o.expr.ty).is_some() || self.pointee(to).is_some() {

@@ -43,7 +43,7 @@ impl Builder<'_> {
                 Some(Unit::Type(index)) if matches!(self.symbols.types[index].decl.body, ast::TypeBody::Struct(_)) => {
                     return self.reserved_type(index);
                 }
-                Some(Unit::Pou(id)) if self.hir.pous[id].kind == PouKind::FunctionBlock => {
+                Some(Unit::Pou(id)) if matches!(self.hir.pous[id].kind, PouKind::FunctionBlock | PouKind::Class) => {
                     return self.reserved_instance(id);
                 }
                 _ => {}
@@ -205,8 +205,8 @@ impl Builder<'_> {
             return None;
         };
         let ty = target.ty;
-        if matches!(self.ty(ty), Type::Reference { .. }) {
-            return self.attempt_interface(target, value);
+        if let Some(done) = self.attempt_object(&target, target.span, value) {
+            return done;
         }
         if ty != self.error && !matches!(self.pointee(ty), Some((_, PointerKind::RefTo))) {
             let label = format!("{}, a reference wanted", self.show(ty));

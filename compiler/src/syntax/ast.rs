@@ -231,6 +231,8 @@ pub enum AddressSize {
 pub struct TypeDecl {
     /// New name.
     pub name: Name,
+    /// The structure whose members come first (vendor).
+    pub extends: Option<Name>,
     /// What it stands for.
     pub body: TypeBody,
     /// Default initial value.

@@ -16,7 +16,7 @@ impl Builder<'_> {
     }
 
     /// An instance or a reference as a value of the interface type `to`; `None` if this is no matter of interfaces.
-    pub(in crate::hir) fn as_interface_value(&mut self, e: &Expr, to: TypeId) -> Option<Expr> {
+    pub(in crate::hir) fn interface_value(&mut self, e: &Expr, to: TypeId) -> Option<Expr> {
         if !matches!(self.ty(to), Type::Reference { .. }) {
             return None;
         }
@@ -77,9 +77,7 @@ impl Builder<'_> {
         let ty = if ra && a.expr.ty != null { a.expr.ty } else { b.expr.ty };
         let side = |x: &mut Self, o: &Operand| match is_reference(x, o.expr.ty) {
             true => Some(Expr { ty, ..o.expr.clone() }),
-            false if matches!(x.ty(o.expr.ty), Type::Instance(_)) && x.type_unit(ty).is_some() => {
-                x.as_interface_value(&o.expr, ty)
-            }
+            false if matches!(x.ty(o.expr.ty), Type::Instance(_)) && x.type_unit(ty).is_some() => x.interface_value(&o.expr, ty),
             false => None,
         };
         let (Some(a), Some(b)) = (side(self, a), side(self, b)) else {
@@ -94,34 +92,44 @@ impl Builder<'_> {
         Some(Operand::fixed(Expr { kind: ExprKind::Binary(op, Box::new(a), Box::new(b)), ty: bool, span }))
     }
 
-    /// `place ?= value` for a variable of an interface type: the value if its instance fits, else NULL.
-    pub(in crate::hir) fn attempt_interface(&mut self, place: Place, value: &ast::Expr) -> Option<StmtKind> {
+    /// `target ?= value`: the value if its instance fits, else NULL. `None` if the target is no matter of objects.
+    pub(in crate::hir) fn attempt_object(&mut self, place: &Place, at: Span, value: &ast::Expr) -> Option<Option<StmtKind>> {
+        let wanted = match (self.ty(place.ty), self.pointee(place.ty)) {
+            (Type::Reference { .. }, _) => self.type_unit(place.ty)?,
+            (_, Some((target, _))) => self.objects.types.get(&target).copied().filter(|id| self.hir.pous[*id].class.is_some())?,
+            _ => return None,
+        };
         let o = self.operand(value, Some(place.ty));
         if self.is_bad(&o) {
+            return Some(None);
+        }
+        Some(self.tried(place, wanted, o, at.to(value.span)))
+    }
+
+    fn tried(&mut self, place: &Place, wanted: PouId, o: Operand, span: Span) -> Option<StmtKind> {
+        let (ty, target) = (place.ty, place.clone());
+        if o.expr.ty == self.null_type() || matches!(o.expr.kind, ExprKind::Const(Const::Int(0))) {
+            let value = constant_expr(Const::Int(0), ty, o.expr.span);
+            return Some(StmtKind::Assign { target, value });
+        }
+        let from = self.pointee(o.expr.ty).map_or(o.expr.ty, |p| p.0);
+        let numbered = self
+            .type_unit(from)
+            .is_some_and(|id| self.hir.pous[id].class.is_some() || self.hir.pous[id].kind == PouKind::Interface);
+        if !numbered {
+            let label = format!("{} ?= {}", self.show(ty), self.show(o.expr.ty));
+            let help = "?= assigns a reference to an instance, if that is of the wanted type";
+            self.report(Diag::new(Code::TypeMismatch, span, label).help(help));
             return None;
         }
-        let wanted = match self.ty(place.ty) {
-            Type::Reference { .. } => self.type_unit(place.ty),
-            _ => None,
-        };
-        let from = self.type_unit(o.expr.ty).filter(|_| o.expr.ty != self.null_type());
-        let (Some(wanted), Some(_)) = (wanted, from) else {
-            if o.expr.ty == self.null_type() && wanted.is_some() {
-                let value = constant_expr(Const::Int(0), place.ty, value.span);
-                return Some(StmtKind::Assign { target: place, value });
-            }
-            let label = format!("{} ?= {}", self.show(place.ty), self.show(o.expr.ty));
-            let help = "?= assigns a reference to an instance to a variable of an interface type";
-            self.report(Diag::new(Code::TypeMismatch, place.span.to(value.span), label).help(help));
-            return None;
-        };
-        let tried = self.reference_to(&o.expr, place.ty)?;
+        let is_pointer = self.pointee(o.expr.ty).is_some();
+        let tried = if is_pointer { Expr { ty, ..o.expr } } else { self.reference_to(&o.expr, ty)? };
         if tried.ty == self.error {
             return None;
         }
         let classes = self.classes_of(wanted).into_iter().map(|c| c.0).collect();
-        let (ty, span) = (place.ty, value.span);
+        let (ty, span) = (place.ty, tried.span);
         let value = Expr { kind: ExprKind::OfClass(Box::new(tried), classes), ty, span };
-        Some(StmtKind::Assign { target: place, value })
+        Some(StmtKind::Assign { target, value })
     }
 }

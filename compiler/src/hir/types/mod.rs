@@ -51,7 +51,7 @@ impl Builder<'_> {
             ast::TypeRefKind::Enum(decl) => self.anonymous_enum(decl),
             ast::TypeRefKind::Struct(members) => {
                 let name = self.sources.text(t.span).split_whitespace().collect::<Vec<_>>().join(" ");
-                self.structure(name, members, t.span, None)
+                self.structure(name, members, t.span, (None, None))
             }
             ast::TypeRefKind::Pointer { kind, target } => self.pointer_type(*kind, target),
             ast::TypeRefKind::Layout(layout) => {
@@ -142,7 +142,7 @@ impl Builder<'_> {
             ast::TypeBody::Enum(e) => self.enumeration(name.clone(), e),
             ast::TypeBody::Struct(members) => {
                 let id = self.reserved_type(index);
-                self.structure(name.clone(), members, decl.name.span, Some(id))
+                self.structure(name.clone(), members, decl.name.span, (Some(id), decl.extends.as_ref()))
             }
         };
         let Some(init) = &decl.init else { return body };

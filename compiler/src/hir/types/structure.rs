@@ -19,10 +19,16 @@ pub(in crate::hir) struct Member {
 }
 
 impl Builder<'_> {
-    /// `STRUCT ... END_STRUCT`; with the id that was reserved for it, if any.
-    pub(super) fn structure(&mut self, name: String, decls: &[ast::VarDecl], at: Span, id: Option<TypeId>) -> TypeUse {
-        let mut members: Vec<Member> = Vec::new();
-        let mut spans: Vec<Span> = Vec::new();
+    /// `STRUCT ... END_STRUCT`; with the id that was reserved for it, and the structure that it extends, if any.
+    pub(super) fn structure(
+        &mut self,
+        name: String,
+        decls: &[ast::VarDecl],
+        at: Span,
+        (id, base): (Option<TypeId>, Option<&ast::Name>),
+    ) -> TypeUse {
+        let mut members: Vec<Member> = base.map(|b| self.inherited_members(b)).unwrap_or_default();
+        let mut spans: Vec<Span> = base.map(|b| vec![b.span; members.len()]).unwrap_or_default();
         for decl in decls {
             let (ty, init) = self.member_type(decl);
             for name in &decl.names {
@@ -47,6 +53,27 @@ impl Builder<'_> {
         };
         self.defaults.insert(ty, default);
         self.plain(ty)
+    }
+
+    /// The members of the structure that another one extends (vendor).
+    fn inherited_members(&mut self, base: &ast::Name) -> Vec<Member> {
+        let used = self.named_type(base);
+        if used.ty == self.error {
+            return Vec::new();
+        }
+        let Type::Struct(record) = self.ty(used.ty) else {
+            let label = format!("{}, not a structure", self.show(used.ty));
+            self.report(Diag::new(Code::NotABase, base.span, label).help("a structure extends a structure"));
+            return Vec::new();
+        };
+        let init = |i: usize| match &used.default {
+            Const::Aggregate(parts) => parts.get(i).cloned().unwrap_or(Const::Zero),
+            _ => Const::Zero,
+        };
+        let fields = record.fields.iter().enumerate();
+        fields
+            .map(|(i, f)| Member { name: f.name.clone(), ty: f.ty, section: f.section, retain: f.retain, init: init(i) })
+            .collect()
     }
 
     fn member_type(&mut self, decl: &ast::VarDecl) -> (TypeId, Const) {

@@ -36,20 +36,33 @@ impl Parser<'_> {
 
     fn type_decl(&mut self) -> Option<TypeDecl> {
         let name = self.declared_name("the name of a type")?;
-        if self.kw() == Kw::Extends {
-            self.unsupported_here("EXTENDS");
-            self.bump();
-            self.eat(Tok::Word);
-        }
+        let mut extends = self.struct_base();
         if !self.colon("the type") {
             return None;
         }
-        let body = self.type_body();
+        let body = if self.kw() == Kw::Struct && self.nth(1).kw == Kw::Extends {
+            let opener = self.here();
+            self.bump();
+            extends = self.struct_base();
+            TypeBody::Struct(self.members(Kw::EndStruct, opener, "STRUCT"))
+        } else {
+            self.type_body()
+        };
         let init = self.optional_init();
         if !self.lost && !self.eat(Tok::Semi) && !matches!(self.prev().kw, Kw::EndStruct | Kw::EndUnion) {
             self.missing_semicolon("this type");
         }
-        Some(TypeDecl { name, body, init })
+        Some(TypeDecl { name, extends, body, init })
+    }
+
+    /// `EXTENDS name` of a structure (vendor).
+    fn struct_base(&mut self) -> Option<Name> {
+        if self.kw() != Kw::Extends {
+            return None;
+        }
+        self.codesys_form("EXTENDS of a structure");
+        self.bump();
+        self.declared_name("the name of a structure")
     }
 
     fn type_body(&mut self) -> TypeBody {

@@ -36,7 +36,15 @@ fn pou(pou: &Pou) -> String {
     };
     let external = if pou.external { "external" } else { "" };
     let result = optional(&pou.result, |t| format!(": {}", type_ref(t)));
-    list([kind.into(), external.into(), pou.name.text.clone(), result, all(&pou.sections, section), stmts(&pou.body)])
+    list([
+        kind.into(),
+        external.into(),
+        pou.name.text.clone(),
+        result,
+        all(&pou.sections, section),
+        stmts(&pou.body),
+        all(&pou.objects.methods, self::pou),
+    ])
 }
 
 fn section(s: &VarSection) -> String {

@@ -28,8 +28,6 @@ fn sections_and_types() {
     lacks("VAR_ACCESS", "PROGRAM p VAR_ACCESS a : x : BOOL READ_ONLY; END_VAR END_PROGRAM");
     lacks("VAR_STAT", "FUNCTION f : INT VAR_STAT x : INT; END_VAR END_FUNCTION");
     lacks("VAR_INST", "FUNCTION_BLOCK f VAR_INST x : INT; END_VAR END_FUNCTION_BLOCK");
-    lacks("EXTENDS", "TYPE t : STRUCT EXTENDS u a : INT; END_STRUCT; END_TYPE");
-    lacks("EXTENDS", "TYPE t EXTENDS u : STRUCT a : INT; END_STRUCT; END_TYPE");
     lacks("variable length", "FUNCTION f : INT VAR_IN_OUT a : STRING[*]; END_VAR END_FUNCTION");
     lacks("arguments", "PROGRAM p VAR x : fb(a := 1, b := 2); END_VAR END_PROGRAM");
     lacks("task of its own", "CONFIGURATION c TASK t(PRIORITY := 1); PROGRAM p : m(fb WITH t); END_CONFIGURATION");
@@ -55,8 +53,9 @@ fn charts_actions_and_lists() {
 #[test]
 fn an_open_construct_ends_at_the_next_unit() {
     let printed = |text: &str| print::file(&parse(text).0);
-    assert_eq!(printed("FUNCTION_BLOCK b METHOD m x := 1; END_FUNCTION_BLOCK PROGRAM p END_PROGRAM"), "(fb b) (program p)");
-    assert_eq!(printed("CLASS c METHOD m END_METHOD PROGRAM p END_PROGRAM"), "(class c) (program p)");
+    let open = printed("FUNCTION_BLOCK b METHOD m x := 1; END_FUNCTION_BLOCK PROGRAM p END_PROGRAM");
+    assert_eq!(open, "(fb b (method m (:= x 1))) (program p)");
+    assert_eq!(printed("CLASS c METHOD m END_METHOD PROGRAM p END_PROGRAM"), "(class c (method m)) (program p)");
     assert_eq!(printed("PROGRAM a VAR_CONFIG x.y : INT; END_PROGRAM PROGRAM p END_PROGRAM"), "(program a) (program p)");
 }
 
