@@ -2,11 +2,15 @@
 //! and manual read this table. From: IEC 61131-3 edition 3, §6.6.2.5; library reference §13.
 
 mod exchange;
+pub mod notes;
 mod numeric;
 mod strings;
 mod time;
 
 use takt_image::{Elementary, Generic};
+
+/// Titles of [`GROUPS`].
+pub const TITLES: &[&str] = &["Numbers, bit strings, selection, comparison", "Strings", "Durations and dates", "Data exchange"];
 
 /// All functions, by topic. Names are unique.
 pub const GROUPS: &[&[Function]] = &[numeric::FUNCTIONS, strings::FUNCTIONS, time::FUNCTIONS, exchange::FUNCTIONS];

@@ -147,7 +147,9 @@ impl Builder<'_> {
         if let Some(shifted) = self.shift_of_integer(f, &args, span) {
             return shifted;
         }
-        let Some(args) = self.fit_parameters(f, fixed, args, span, want) else { return self.bad(span) };
+        // What the context wants of the result says something about the inputs only if they are of one type.
+        let shared = want.filter(|_| matches!(f.result, Pattern::T(_)));
+        let Some(args) = self.fit_parameters(f, fixed, args, span, shared) else { return self.bad(span) };
         if let Some(op) = operator {
             return self.apply_operator(op, args.into_iter().map(Operand::fixed).collect(), span, fixed);
         }
