@@ -130,8 +130,9 @@ impl<'a> Builder<'a> {
     }
 
     fn program(&mut self, decl: &'a ast::ProgramDecl) -> Option<ProgramInstance> {
-        let pou = match self.symbols.units.get(&decl.ty.key()) {
-            Some(&(Unit::Pou(id), _)) if self.hir.pous[id].kind == PouKind::Program => id,
+        self.check_unit_use(&decl.ty);
+        let pou = match self.unit(&decl.ty) {
+            Some((Unit::Pou(id), _)) if self.hir.pous[id].kind == PouKind::Program => id,
             Some(_) => {
                 let diag = Diag::new(Code::UnknownType, decl.ty.span, "not a PROGRAM").message("a task runs programs");
                 self.report(diag.help("wrap it: declare an instance in a PROGRAM and call it there"));

@@ -39,11 +39,12 @@ impl Builder<'_> {
         if let ast::TypeRefKind::Named(name) = &t.kind
             && Elementary::from_name(&name.text).is_none()
         {
-            match self.symbols.units.get(&name.key()) {
-                Some(&(Unit::Type(index), _)) if matches!(self.symbols.types[index].decl.body, ast::TypeBody::Struct(_)) => {
+            self.check_unit_use(name);
+            match self.unit(name) {
+                Some((Unit::Type(index), _)) if matches!(self.symbols.types[index].decl.body, ast::TypeBody::Struct(_)) => {
                     return self.reserved_type(index);
                 }
-                Some(&(Unit::Pou(id), _)) if self.hir.pous[id].kind == PouKind::FunctionBlock => {
+                Some((Unit::Pou(id), _)) if self.hir.pous[id].kind == PouKind::FunctionBlock => {
                     return self.reserved_instance(id);
                 }
                 _ => {}
@@ -59,7 +60,8 @@ impl Builder<'_> {
             return entry.result.as_ref().map_or(self.error, |r| r.ty);
         }
         let known = entry.reserved;
-        let id = known.unwrap_or_else(|| self.hir.types.add(Type::Struct(unfinished(&entry.decl.name.text))));
+        let name = self.full_name(&entry.decl.name).text;
+        let id = known.unwrap_or_else(|| self.hir.types.add(Type::Struct(unfinished(&name))));
         self.symbols.types[index].reserved = Some(id);
         id
     }

@@ -163,7 +163,7 @@ impl Builder<'_> {
     /// VAR_EXTERNAL: a global of the same name and type, CONSTANT if that is (§3.5).
     fn declare_external(&mut self, section: &ast::VarSection, d: &ast::VarDecl, name: &ast::Name) {
         let used = self.type_ref(&d.ty);
-        let Some(&id) = self.symbols.globals.get(&name.key()) else {
+        let Some(id) = self.global_id(name) else {
             let known: Vec<String> = self.hir.globals.iter().map(|g| g.name.clone()).collect();
             self.unknown(Code::ExternalMismatch, name, known);
             self.declare_unmatched(name, used.ty);
@@ -224,7 +224,7 @@ impl Builder<'_> {
             let ty = if section == Section::InOut { self.hir.types.intern(Type::Reference { target }) } else { target };
             members.push(Member { name, ty, section, retain, init });
         }
-        let Some((record, default)) = self.record(decl.name.text.clone(), members, decl.name.span) else { return };
+        let Some((record, default)) = self.record(self.hir.pous[id].name.clone(), members, decl.name.span) else { return };
         let ty = self.reserved_instance(id);
         self.hir.types.replace(ty, Type::Instance(record));
         self.defaults.insert(ty, default);

@@ -143,6 +143,8 @@ pub(crate) struct Tokens {
     pub(crate) list: Vec<Token>,
     /// Positions in `list` before which `{external}` stands, ascending.
     pub(crate) external: Vec<usize>,
+    /// The same for `{attribute 'qualified_only'}`.
+    pub(crate) qualified_only: Vec<usize>,
     /// Inline C of MATIEC: the position in `list` behind it, and its place; ascending.
     pub(crate) inline_c: Vec<(usize, Span)>,
     /// A comment or pragma that is not closed (and has been reported) hides the end of the text.
@@ -163,6 +165,7 @@ pub(crate) fn lex(text: &str, source: SourceId, profile: Profile, report: &mut R
         report,
         nested,
         external: Vec::new(),
+        qualified_only: Vec::new(),
         inline_c: Vec::new(),
         conditional: Conditional::default(),
         profile,
@@ -193,7 +196,7 @@ pub(crate) fn lex(text: &str, source: SourceId, profile: Profile, report: &mut R
     scan.close_conditional();
     let end = text.len() as u32;
     list.push(Token { kind: Tok::Eof, kw: Kw::None, start: end, end });
-    Tokens { list, external: scan.external, inline_c: scan.inline_c, cut: scan.cut }
+    Tokens { list, external: scan.external, qualified_only: scan.qualified_only, inline_c: scan.inline_c, cut: scan.cut }
 }
 
 /// The word that opens a graphical body in a CODESYS 2 export (language reference §17).
@@ -208,6 +211,7 @@ struct Scan<'t, 'r, 's> {
     nested: bool,
     report: &'r mut Report<'s>,
     external: Vec<usize>,
+    qualified_only: Vec<usize>,
     inline_c: Vec<(usize, Span)>,
     /// `{IF ..}` of CODESYS; not followed in other profiles.
     conditional: Conditional,
@@ -380,6 +384,8 @@ impl Scan<'_, '_, '_> {
         self.logos.bump(n + close.len());
         if text.eq_ignore_ascii_case("external") {
             self.external.push(before);
+        } else if text.split_once(char::is_whitespace).is_some_and(|(a, b)| a == "attribute" && b.trim() == "'qualified_only'") {
+            self.qualified_only.push(before);
         } else if self.profile.is_codesys()
             && let Some(followed) = self.conditional.follow(text)
         {

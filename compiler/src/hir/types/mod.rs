@@ -70,13 +70,14 @@ impl Builder<'_> {
             let ty = self.elem(e);
             return self.plain(ty);
         }
-        if name.is("BIT") && !self.symbols.units.contains_key(&name.key()) && self.profile(name.span).is_codesys() {
+        if name.is("BIT") && !self.unit(name).is_some() && self.profile(name.span).is_codesys() {
             let ty = self.bool();
             return self.plain(ty);
         }
-        match self.symbols.units.get(&name.key()) {
-            Some(&(Unit::Type(index), _)) => self.declared_type(index, name.span),
-            Some(&(Unit::Pou(id), _)) => self.instance_type(id, name.span),
+        self.check_unit_use(name);
+        match self.unit(name) {
+            Some((Unit::Type(index), _)) => self.declared_type(index, name.span),
+            Some((Unit::Pou(id), _)) => self.instance_type(id, name.span),
             None => {
                 let known = self.unit_names().into_iter().chain(Elementary::ALL.iter().map(|e| e.name().to_owned())).collect();
                 self.unknown(Code::UnknownType, name, known);
@@ -129,7 +130,7 @@ impl Builder<'_> {
     }
 
     fn type_body(&mut self, index: usize, decl: &ast::TypeDecl) -> TypeUse {
-        let name = &decl.name.text;
+        let name = &self.full_name(&decl.name).text;
         let body = match &decl.body {
             ast::TypeBody::Ref(ast::TypeRef { kind: ast::TypeRefKind::Subrange { base, low, high }, span }) => {
                 self.subrange(Some(name), base, low, high, *span)

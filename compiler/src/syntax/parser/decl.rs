@@ -22,7 +22,7 @@ impl Parser<'_> {
         File { items }
     }
 
-    fn item(&mut self) -> Option<Item> {
+    pub(super) fn item(&mut self) -> Option<Item> {
         self.found_place();
         self.unwinding = false;
         self.open.clear();
@@ -44,6 +44,8 @@ impl Parser<'_> {
             Kw::Interface => Some(Item::Pou(self.pou(PouKind::Interface, Kw::EndInterface))),
             Kw::VarGlobal => self.var_section().map(Item::Globals),
             Kw::Configuration => Some(Item::Configuration(self.configuration())),
+            Kw::Namespace => self.namespace(),
+            Kw::Using => Some(Item::Using(self.using())),
             _ => {
                 self.no_item();
                 None
@@ -57,7 +59,7 @@ impl Parser<'_> {
         }
         let diag = self.expected_diag("a declaration");
         self.error(
-            diag.help("a file holds PROGRAM, FUNCTION_BLOCK, FUNCTION, CLASS, INTERFACE, TYPE, VAR_GLOBAL and CONFIGURATION"),
+            diag.help("a file holds PROGRAM, FUNCTION_BLOCK, FUNCTION, CLASS, INTERFACE, TYPE, NAMESPACE, VAR_GLOBAL and CONFIGURATION"),
         );
         self.bump();
         self.skip_to_item();

@@ -11,6 +11,7 @@ pub(crate) mod il;
 mod init;
 mod literal;
 mod loops;
+mod namespace;
 mod object;
 mod recover;
 mod stmt;

@@ -149,13 +149,7 @@ impl Parser<'_> {
     fn named(&mut self) -> TypeRefKind {
         let token = self.bump();
         let name = Name { text: self.text_of(token).to_owned(), span: self.span_of(token) };
-        if self.at(Tok::Dot) {
-            self.unsupported_here("a name in a namespace");
-            while self.eat(Tok::Dot) && self.at(Tok::Word) {
-                self.bump();
-            }
-            return TypeRefKind::Error;
-        }
+        let name = self.qualified(name);
         if !self.at(Tok::LParen) {
             return TypeRefKind::Named(name);
         }
