@@ -93,6 +93,12 @@ fn sources(files: &[File]) -> Sources {
     for (name, text) in takt_stdlib::SOURCES {
         sources.add_library(*name, *text);
     }
+    for (name, text, profile) in takt_stdlib::vendor::VENDOR_SOURCES {
+        if files.iter().any(|f| takt_stdlib::vendor::has_source(f.profile, *profile)) {
+            let id = sources.add_library(*name, *text);
+            sources.set_profile(id, *profile);
+        }
+    }
     let (name, text, profile) = takt_stdlib::PRELUDE;
     if files.iter().any(|f| f.profile == profile) {
         sources.add_library(name, text);

@@ -1,6 +1,7 @@
 //! The standard functions: name, signature, how they are compiled, one line of documentation. One home: checker, code generator
 //! and manual read this table. From: IEC 61131-3 edition 3, §6.6.2.5; library reference §13.
 
+mod exchange;
 mod numeric;
 mod strings;
 mod time;
@@ -8,7 +9,7 @@ mod time;
 use takt_image::{Elementary, Generic};
 
 /// All functions, by topic. Names are unique.
-pub const GROUPS: &[&[Function]] = &[numeric::FUNCTIONS, strings::FUNCTIONS, time::FUNCTIONS];
+pub const GROUPS: &[&[Function]] = &[numeric::FUNCTIONS, strings::FUNCTIONS, time::FUNCTIONS, exchange::FUNCTIONS];
 
 /// All functions in the order of the manual.
 pub fn functions() -> impl Iterator<Item = &'static Function> {
@@ -107,6 +108,10 @@ pub enum Intrinsic {
     Min,
     Limit,
     Mux,
+    /// MUX of CODESYS: the last input if there is no number K. Not in the table.
+    MuxLast,
+    /// LIMIT of MATIEC: MN if IN <= MN, whatever MX is. Not in the table.
+    LimitLow,
     Gt,
     Ge,
     Eq,

@@ -4,6 +4,7 @@ pub mod calendar;
 pub mod catalog;
 pub mod lookup;
 pub mod natives;
+pub mod vendor;
 
 pub use lookup::{ConversionType, Found, lookup};
 pub use natives::{Library, native_conversion, native_signature};

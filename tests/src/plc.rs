@@ -38,8 +38,11 @@ pub fn compile_in(profile: Profile, text: &str) -> Compilation {
 }
 
 fn compile_bytes(profile: Profile, bytes: Vec<u8>) -> Compilation {
-    let file = File { name: "test.st".into(), bytes, library: false, profile };
-    compile(Project { name: "test".into(), files: vec![file], attachments: vec![], interval: None, native: true })
+    compile_files(vec![File { name: "test.st".into(), bytes, library: false, profile }])
+}
+
+fn compile_files(files: Vec<File>) -> Compilation {
+    compile(Project { name: "test".into(), files, attachments: vec![], interval: None, native: true })
 }
 
 impl Plc {
@@ -68,8 +71,16 @@ impl Plc {
         Self::load_bytes(profile, bytes).unwrap_or_else(|messages| panic!("{messages}"))
     }
 
+    /// Compiles and loads a project of several files; panics with the messages if it has errors.
+    pub fn from_files(files: Vec<File>) -> Self {
+        Self::load_compiled(compile_files(files)).unwrap_or_else(|messages| panic!("{messages}"))
+    }
+
     fn load_bytes(profile: Profile, bytes: Vec<u8>) -> Result<Self, String> {
-        let c = compile_bytes(profile, bytes);
+        Self::load_compiled(compile_bytes(profile, bytes))
+    }
+
+    fn load_compiled(c: Compilation) -> Result<Self, String> {
         let errors = c.diags.iter().filter(|d| d.severity == Severity::Error);
         let messages: Vec<_> = errors.map(|d| render(d, &c.sources)).collect();
         let (Some(image), Some(module)) = (c.image, c.module) else { return Err(messages.join("\n")) };

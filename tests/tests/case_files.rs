@@ -2,7 +2,8 @@
 
 use std::collections::BTreeSet;
 use std::path::Path;
-use takt_stdlib::{Found, SOURCES, lookup};
+use takt_base::Profile;
+use takt_stdlib::{Found, SOURCES, lookup, vendor};
 use takt_tests::{cycle_table, expression_table};
 
 /// File name and contents of `conformance/iec/<folder>/*.md`, by name.
@@ -22,7 +23,8 @@ fn files(folder: &str) -> Vec<(String, String)> {
 /// Text of a unit in the library, from its name to its end.
 fn source_of(kind: &str, name: &str) -> &'static str {
     let (head, end) = (format!("\n{kind} {name}\n"), format!("END_{kind}\n"));
-    let text = SOURCES.iter().find_map(|(_, text)| Some(text.split_once(&head)?.1));
+    let all = SOURCES.iter().map(|(_, text)| text).chain(vendor::VENDOR_SOURCES.iter().map(|(_, text, _)| text));
+    let text = all.filter_map(|text| Some(text.split_once(&head)?.1)).next();
     text.and_then(|t| Some(t.split_once(&end)?.0)).unwrap_or_else(|| panic!("no {kind} {name}"))
 }
 
@@ -30,10 +32,13 @@ fn source_of(kind: &str, name: &str) -> &'static str {
 fn check_tables(folder: &str, kind: &str) {
     let mut seen = BTreeSet::new();
     for (file, text) in files(folder) {
-        for table in cycle_table::parse(&text).unwrap_or_else(|e| panic!("{file}: {e:?}")) {
+        let profile = Profile::from_name(file.trim_end_matches(".md")).unwrap_or_default();
+        for mut table in cycle_table::parse(&text).unwrap_or_else(|e| panic!("{file}: {e:?}")) {
+            table.block = vendor::block(&table.block, profile).unwrap_or(table.block);
             let source = source_of(kind, &table.block);
             let constants = table.constants.iter().map(|(name, _)| name);
             for pin in constants.chain(table.inputs.iter().chain(&table.outputs).map(|row| &row.name)) {
+                let pin = vendor::pin(&table.block, pin).unwrap_or(pin);
                 assert!(source.contains(&format!("    {pin} : ")), "{file}:{}: {} has no {pin}", table.line, table.block);
             }
             assert!(table.scans > 0);

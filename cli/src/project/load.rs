@@ -57,7 +57,7 @@ impl Problem {
     }
 }
 
-const SOURCE_EXTENSIONS: &[&str] = &["st", "exp"];
+const SOURCE_EXTENSIONS: &[&str] = &["st", "il", "exp"];
 
 /// Reads the project that `paths` name: one folder, or one or more source files. A profile given here is that of every file.
 pub fn load(paths: &[PathBuf], profile: Option<Profile>) -> Result<Project, Problem> {
@@ -104,7 +104,7 @@ fn folder(dir: &Path) -> Result<Project, Problem> {
     if names.is_empty() {
         return Err(Problem::File(
             Code::BadProjectFile,
-            format!("{} has no takt.toml and no source file (*.st, *.exp)", dir.display()),
+            format!("{} has no takt.toml and no source file (*.st, *.il, *.exp)", dir.display()),
         ));
     }
     let name = keys.project.name.clone().unwrap_or_else(|| folder_name(dir));
@@ -118,7 +118,7 @@ fn plain_files(files: &[PathBuf]) -> Result<Project, Problem> {
     for file in files {
         let extension = file.extension().and_then(|e| e.to_str()).unwrap_or("");
         if file.exists() && !SOURCE_EXTENSIONS.iter().any(|e| e.eq_ignore_ascii_case(extension)) {
-            let text = format!("{}: this version reads *.st, *.exp and project folders", file.display());
+            let text = format!("{}: this version reads *.st, *.il, *.exp and project folders", file.display());
             return Err(Problem::File(Code::BadProjectFile, text));
         }
     }

@@ -29,7 +29,7 @@ impl Builder<'_> {
             (None, _) if self.is_this(name) => true,
             (None, _) => {
                 let function = matches!(self.unit(name), Some((Unit::Pou(_), _)));
-                !function && self.global_id(name).is_some()
+                self.named_program(name).is_some() || !function && self.global_id(name).is_some()
             }
         }
     }
@@ -40,7 +40,8 @@ impl Builder<'_> {
         let (Some(target), Some(id)) = (target.clone(), pou) else {
             if let Some(t) = target.filter(|t| t.place.ty != self.error) {
                 let label = format!("{}, not a function block", self.show(t.place.ty));
-                self.error(Code::NotCallable, callee.span, label);
+                let help = "functions and instances of function blocks are called; of a class its methods";
+                self.report(Diag::new(Code::NotCallable, callee.span, label).help(help));
             }
             args.iter().filter_map(super::body::arg_expr).for_each(|e| drop(self.operand(e, None)));
             return None;
@@ -70,7 +71,7 @@ impl Builder<'_> {
         if !matches!(self.ty(place.ty), Type::Instance(_)) {
             return None;
         }
-        self.objects.types.get(&place.ty).copied().filter(|id| self.hir.pous[*id].kind == PouKind::FunctionBlock)
+        self.objects.types.get(&place.ty).copied().filter(|id| matches!(self.hir.pous[*id].kind, PouKind::FunctionBlock | PouKind::Program))
     }
 
     fn block_arguments(&mut self, instance: Place, id: PouId, given: Vec<Option<Given>>, span: Span) -> Option<StmtKind> {

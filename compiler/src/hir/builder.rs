@@ -46,6 +46,8 @@ pub(super) struct Builder<'a> {
     pub unfolded: bool,
     /// Types with their methods and heritage.
     pub objects: super::objects::Table,
+    /// Implicit instances of programs (vendor).
+    pub program_globals: HashMap<PouId, GlobalId>,
     leaves: usize,
     depth: u32,
 }
@@ -74,6 +76,7 @@ impl<'a> Builder<'a> {
             guards_next: false,
             unfolded: false,
             objects: super::objects::Table::default(),
+            program_globals: HashMap::new(),
             leaves: 0,
             depth: 0,
         }

@@ -26,7 +26,8 @@ impl<'a> Builder<'a> {
     pub fn configure(&mut self) {
         let resources: Vec<&'a ast::Resource> = self.symbols.configurations.iter().flat_map(|c| &c.resources).collect();
         if self.symbols.configurations.is_empty() {
-            return self.default_configuration();
+            self.default_configuration();
+            return self.share_programs();
         }
         if let Some(second) = resources.get(1) {
             let name = second.name.as_ref().or_else(|| second.programs.first().map(|p| &p.name));
@@ -37,11 +38,16 @@ impl<'a> Builder<'a> {
         if let Some(resource) = resources.first() {
             self.resource(resource);
         }
+        self.share_programs();
     }
 
     fn default_configuration(&mut self) {
         let mine = self.hir.pous.enumerate().filter(|(id, p)| p.kind == PouKind::Program && !self.symbols.pous[*id].library);
-        let programs: Vec<_> = mine.map(|(pou, p)| instance(p.name.clone(), pou)).collect();
+        let mut programs: Vec<_> = mine.map(|(pou, p)| instance(p.name.clone(), pou)).collect();
+        let called = self.called_programs();
+        if programs.iter().any(|p| !called.contains(&p.pou)) {
+            programs.retain(|p| !called.contains(&p.pou));
+        }
         for program in &programs {
             let at = self.symbols.pous[program.pou].decl.name.span;
             self.check_bound(program.pou, at);
@@ -228,7 +234,7 @@ impl<'a> Builder<'a> {
 }
 
 fn instance(name: String, pou: PouId) -> ProgramInstance {
-    ProgramInstance { name, pou, inputs: Vec::new(), outputs: Vec::new() }
+    ProgramInstance { name, pou, global: None, inputs: Vec::new(), outputs: Vec::new() }
 }
 
 /// Reports every direct address in a configuration.

@@ -95,10 +95,12 @@ impl Builder<'_> {
             ExprKind::Const(c) => constant::int(c).is_some_and(|v| constant::checked(to, v).is_ok()),
             ExprKind::Convert(Conversion::Integer | Conversion::Subrange, a) | ExprKind::Neg(a) => self.is_made_of(a, to),
             ExprKind::Binary(op, a, b) if grows(*op) => self.is_made_of(a, to) && self.is_made_of(b, to),
-            ExprKind::Intrinsic(Intrinsic::Min | Intrinsic::Max | Intrinsic::Limit, args) => {
+            ExprKind::Intrinsic(Intrinsic::Min | Intrinsic::Max | Intrinsic::Limit | Intrinsic::LimitLow, args) => {
                 args.iter().all(|a| self.is_made_of(a, to))
             }
-            ExprKind::Intrinsic(Intrinsic::Sel | Intrinsic::Mux, args) => args.iter().skip(1).all(|a| self.is_made_of(a, to)),
+            ExprKind::Intrinsic(Intrinsic::Sel | Intrinsic::Mux | Intrinsic::MuxLast, args) => {
+                args.iter().skip(1).all(|a| self.is_made_of(a, to))
+            }
             _ => false,
         }
     }

@@ -18,12 +18,14 @@ mod il;
 mod image;
 mod init;
 mod globals;
+mod hierarchy;
 mod label;
 mod lattice;
 pub mod model;
 mod objects;
 mod place;
 mod pointer;
+mod program;
 mod reference;
 mod scope;
 mod space;
@@ -31,6 +33,7 @@ mod stmt;
 mod symbols;
 mod types;
 mod unit;
+mod vendor;
 
 #[cfg(test)]
 mod tests;

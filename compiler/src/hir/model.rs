@@ -33,6 +33,8 @@ pub struct Hir {
     pub globals: IndexVec<GlobalId, Global>,
     /// Tasks with their program instances.
     pub tasks: Vec<Task>,
+    /// A program may be a variable too (vendor): its instance may be a global.
+    pub programs_are_instances: bool,
     /// Bytes used in %I, %Q, %M: one past the highest address.
     pub image_bytes: [u32; 3],
 }
@@ -173,6 +175,8 @@ pub struct ProgramInstance {
     pub name: String,
     /// Its type.
     pub pou: PouId,
+    /// The variable that this instance is, if it is one (vendor).
+    pub global: Option<GlobalId>,
     /// Copied before each run: input (or output) variable of the program, value.
     pub inputs: Vec<(VarId, Expr)>,
     /// Copied after each run.

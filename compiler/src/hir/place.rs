@@ -131,7 +131,11 @@ impl Builder<'_> {
                 if let Some(full) = self.qualified(e).filter(|n| self.global_id(n).is_some()) {
                     return self.variable(&full);
                 }
-                let base = self.place(base)?;
+                let full = self.qualified(base).filter(|n| self.named_program(n).is_some());
+                let base = match full {
+                    Some(full) => self.variable(&full)?,
+                    None => self.place(base)?,
+                };
                 self.member(base, name, e.span)
             }
             ast::ExprKind::Deref(base) => self.deref(base, e.span),
@@ -158,6 +162,9 @@ impl Builder<'_> {
             None => match self.global(n) {
                 Some(id) => id,
                 None => {
+                    if let Some(program) = self.program_place(n) {
+                        return program;
+                    }
                     self.no_variable(n);
                     return None;
                 }
@@ -233,6 +240,10 @@ impl Builder<'_> {
             }
         };
         let index = record.fields.iter().rposition(|f| name.is(&f.name) && f.section != Section::Hidden);
+        let index = index.or_else(|| {
+            let pin = self.vendor_pin(base.place.ty, name)?;
+            record.fields.iter().rposition(|f| f.name == pin)
+        });
         let Some(index) = index else {
             let known = record.fields.iter().filter(|f| f.section != Section::Hidden).map(|f| f.name.clone()).collect();
             if self.method_without_call(base.place.ty, name) {

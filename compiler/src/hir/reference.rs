@@ -40,11 +40,11 @@ impl Builder<'_> {
             && Elementary::from_name(&name.text).is_none()
         {
             self.check_unit_use(name);
-            match self.unit(name) {
-                Some((Unit::Type(index), _)) if matches!(self.symbols.types[index].decl.body, ast::TypeBody::Struct(_)) => {
+            match self.named_unit(name) {
+                Some(Unit::Type(index)) if matches!(self.symbols.types[index].decl.body, ast::TypeBody::Struct(_)) => {
                     return self.reserved_type(index);
                 }
-                Some((Unit::Pou(id), _)) if self.hir.pous[id].kind == PouKind::FunctionBlock => {
+                Some(Unit::Pou(id)) if self.hir.pous[id].kind == PouKind::FunctionBlock => {
                     return self.reserved_instance(id);
                 }
                 _ => {}

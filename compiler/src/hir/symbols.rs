@@ -41,7 +41,8 @@ pub(super) struct PouEntry<'a> {
 
 /// A declared global variable.
 pub(super) struct GlobalEntry<'a> {
-    pub decl: &'a ast::VarDecl,
+    /// `None`: made by the compiler.
+    pub decl: Option<&'a ast::VarDecl>,
     pub library: bool,
     pub state: State,
 }
@@ -235,7 +236,7 @@ impl<'a> Builder<'a> {
             retain: section.retain == Some(true),
             span: name.span,
         });
-        self.symbols.global_entries.push(GlobalEntry { decl, library, state: State::Pending });
+        self.symbols.global_entries.push(GlobalEntry { decl: Some(decl), library, state: State::Pending });
         id
     }
 

@@ -97,6 +97,9 @@ impl Builder<'_> {
         if section.kind == SectionKind::Global {
             return;
         }
+        if section.kind == SectionKind::Stat {
+            return self.declare_static(id, pou, section, d);
+        }
         let outer = std::mem::replace(&mut self.objects.abstract_allowed, section.kind == SectionKind::InOut);
         let used = self.declared_var_type(pou, section, &d.ty);
         self.objects.abstract_allowed = outer;
@@ -157,6 +160,20 @@ impl Builder<'_> {
             if at.area == ast::Area::Input {
                 self.hir.pous[id].vars[var].init = Const::Zero;
             }
+        }
+    }
+
+    /// VAR_STAT (vendor): one variable for all calls and instances of the unit.
+    fn declare_static(&mut self, id: PouId, pou: &ast::Pou, section: &ast::VarSection, d: &ast::VarDecl) {
+        let used = self.type_ref(&d.ty);
+        self.check_decl(pou, section, d, used.ty);
+        let init = d.init.as_ref().map_or_else(|| used.default.clone(), |i| self.initial(i, &used));
+        for name in &d.names {
+            let full = format!("{}.{}", self.hir.pous[id].name, name.text);
+            let init = if self.charge(constant::leaves(&init) - 1, name.span) { init.clone() } else { Const::Zero };
+            let global = self.new_global(full, used.ty, init, name.span);
+            self.hir.globals[global].constant = section.constant;
+            self.declare_local(name, Local::External(global));
         }
     }
 

@@ -157,6 +157,8 @@ pub struct VarSection {
 pub enum SectionKind {
     Var,
     Temp,
+    /// VAR_STAT (vendor).
+    Stat,
     Input,
     Output,
     InOut,

@@ -1,5 +1,6 @@
 //! Text as values: leading blanks, then a literal of the type, with or without its prefix, and nothing behind it; everything else is
 //! 0. Integers and durations out of range saturate. From: library reference §2.4; literals as in language reference §1.5, §1.7.
+//! CODESYS: the longest beginning that is a literal counts, and no text is an error.
 //! Runs: cyclic.
 
 use super::Types;
@@ -17,8 +18,12 @@ pub(super) fn from_string(call: &mut NativeCall, types: Types) -> Result<(), Tra
     let text = source(call, 0, width(types.from))?;
     let mut buffer = [0; LITERAL_MAX];
     let literal = read(call, text, &mut buffer);
-    let value = literal.and_then(|literal| value(without_prefix(literal, to), to));
-    if !value.as_ref().is_some_and(|v| v.exact) {
+    let codesys = types.profile.is_codesys();
+    let value = literal.map(|literal| without_prefix(literal, to)).and_then(|literal| match codesys {
+        true => beginning(literal, to),
+        false => value(literal, to),
+    });
+    if !value.as_ref().map_or(codesys, |v| v.exact) {
         call.fail();
     }
     call.result = value.map_or(0, |v| v.slot);
@@ -77,6 +82,15 @@ fn value(literal: &[u8], to: E) -> Option<Parsed> {
         }
     };
     cursor.at_end().then_some(Parsed { slot, exact })
+}
+
+/// Longest text of CODESYS that is looked at.
+const CODESYS_MAX: usize = 255;
+
+/// The value of the longest beginning that is a literal.
+fn beginning(text: &[u8], to: E) -> Option<Parsed> {
+    let text = text.get(..CODESYS_MAX).unwrap_or(text);
+    (1..=text.len()).rev().find_map(|len| value(text.get(..len)?, to))
 }
 
 /// TRUE, FALSE, 1, 0.

@@ -2,7 +2,8 @@
 //!
 //! **Names.** A catalogue function with lowering `Native` is called `NAME_T` (`SIN_LREAL`, `LEFT_WSTRING`), without T `NAME`. A
 //! conversion is called `FROM_TO_TO` with the short names of the types (`INT_TO_STRING`, `TIME_TO_DINT`); [`native_conversion`] says
-//! which conversions are natives. Helpers that stand behind inline functions are in [`helpers`].
+//! which conversions are natives, [`native_conversion_in`] which of them a vendor has in a form of its own, with the profile behind
+//! the name (`REAL_TO_STRING_CODESYS`). Helpers that stand behind inline functions are in [`helpers`].
 //!
 //! **Slots**, in this order: the inputs, then the place of a string result. A scalar takes one slot of its machine type (TIME, DATE
 //! and the like I64, CHAR I8), an input with a pattern of its own (L, P, YEAR) one I64, a string two I32: offset and capacity.
@@ -12,18 +13,21 @@
 mod bcd;
 mod conversions;
 mod dates;
+mod exchange;
 mod from_string;
 pub mod helpers;
 mod literals;
 mod math;
 mod numbers;
+mod printf;
 mod strings;
 mod text;
 mod to_string;
 
 use crate::catalog::{Function, Lowering, Pattern, functions};
 use crate::lookup::ConversionType;
-pub use conversions::native_conversion;
+pub use conversions::{native_conversion, native_conversion_in};
+use takt_base::Profile;
 use takt_image::natives::MAX_SLOTS;
 use takt_image::{BindError, Elementary, Generic, NativeCall, NativeImport, NativeKind, Natives, Scalar, Trap, TypeTable};
 
@@ -35,11 +39,13 @@ pub(crate) type Run = fn(&mut NativeCall, Types) -> Result<(), Trap>;
 pub(crate) struct Types {
     from: ConversionType,
     to: ConversionType,
+    /// Dialect whose rules it follows.
+    profile: Profile,
 }
 
 impl Types {
     const fn both(ty: ConversionType) -> Self {
-        Self { from: ty, to: ty }
+        Self { from: ty, to: ty, profile: Profile::Std }
     }
 }
 
@@ -123,7 +129,7 @@ fn function(name: &str) -> Option<Native> {
     let ty = ConversionType::from_name(suffix)?;
     let fits = match ty {
         ConversionType::Elementary(e) => e.is_in(function.group()?),
-        _ => function.group()? == Generic::AnyString,
+        _ => matches!(function.group()?, Generic::AnyString | Generic::AnyElementary),
     };
     if fits { of_function(function, Types::both(ty)) } else { None }
 }
@@ -143,7 +149,7 @@ fn of_function(function: &Function, types: Types) -> Option<Native> {
 }
 
 /// Code of the catalogue functions.
-const RUNS: &[&[(&str, Run)]] = &[math::RUNS, strings::RUNS, dates::RUNS, bcd::RUNS];
+const RUNS: &[&[(&str, Run)]] = &[math::RUNS, strings::RUNS, dates::RUNS, bcd::RUNS, exchange::RUNS];
 
 /// The type that a pattern stands for.
 fn resolve(pattern: Pattern, ty: ConversionType) -> ConversionType {

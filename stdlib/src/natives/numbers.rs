@@ -1,10 +1,11 @@
-//! TIME, TOD, DATE and DT as numbers: TIME and TOD in milliseconds, DATE and DT in seconds. Integers drop the fraction (dates round
+//! TIME, TOD, DATE and DT as numbers: TIME and TOD in milliseconds (profile openplc: seconds), DATE and DT in seconds. Integers drop the fraction (dates round
 //! down), reals keep it; out of range wraps, from reals saturates. From: library reference §2.1 rows g and j.
 //! Runs: cyclic.
 
 use super::Types;
 use crate::calendar::{DAY_NS, MILLISECOND_NS, SECOND_NS, midnight_of, time_of_day};
 use crate::lookup::ConversionType;
+use takt_base::Profile;
 use takt_image::{Elementary as E, NativeCall, Trap};
 
 /// Nanoseconds in the unit in which the type is a number; `None` for types that have no native here.
@@ -14,6 +15,12 @@ pub(super) fn unit(ty: E) -> Option<i64> {
         E::Date | E::Dt => Some(SECOND_NS),
         _ => None,
     }
+}
+
+/// The same for a profile.
+fn unit_of(ty: E, types: Types) -> i64 {
+    let seconds = matches!(ty, E::Time | E::Tod) && types.profile == Profile::OpenPlc;
+    if seconds { SECOND_NS } else { unit(ty).unwrap_or(1) }
 }
 
 pub(super) fn instant_to_date(call: &mut NativeCall, _: Types) -> Result<(), Trap> {
@@ -28,7 +35,7 @@ pub(super) fn instant_to_tod(call: &mut NativeCall, _: Types) -> Result<(), Trap
 
 pub(super) fn time_to_int(call: &mut NativeCall, types: Types) -> Result<(), Trap> {
     let (from, to) = ends(types)?;
-    let (ns, unit) = (call.i64(0), unit(from).unwrap_or(1));
+    let (ns, unit) = (call.i64(0), unit_of(from, types));
     let number = if from.is_duration() { ns / unit } else { ns.div_euclid(unit) };
     call.result = extend(number as u64, to);
     let kept = if to.is_signed_storage() { i128::from(call.result as i64) } else { i128::from(call.result) };
@@ -40,7 +47,7 @@ pub(super) fn time_to_int(call: &mut NativeCall, types: Types) -> Result<(), Tra
 
 pub(super) fn time_to_real(call: &mut NativeCall, types: Types) -> Result<(), Trap> {
     let (from, to) = ends(types)?;
-    let number = call.i64(0) as f64 / unit(from).unwrap_or(1) as f64;
+    let number = call.i64(0) as f64 / unit_of(from, types) as f64;
     call.result = if to == E::Real { (number as f32).to_bits().into() } else { number.to_bits() };
     Ok(())
 }
@@ -49,7 +56,7 @@ pub(super) fn int_to_time(call: &mut NativeCall, types: Types) -> Result<(), Tra
     let (from, to) = ends(types)?;
     let slot = extend(call.i64(0) as u64, from);
     let number = if from.is_signed_storage() { i128::from(slot as i64) } else { i128::from(slot) };
-    let exact = number * i128::from(unit(to).unwrap_or(1));
+    let exact = number * i128::from(unit_of(to, types));
     let ns = exact as i64;
     if i128::from(ns) != exact {
         call.fail();
@@ -61,7 +68,7 @@ pub(super) fn int_to_time(call: &mut NativeCall, types: Types) -> Result<(), Tra
 pub(super) fn real_to_time(call: &mut NativeCall, types: Types) -> Result<(), Trap> {
     let (from, to) = ends(types)?;
     let number = if from == E::Real { f64::from(call.f32(0)) } else { call.f64(0) };
-    let nearest = libm::rint(number * unit(to).unwrap_or(1) as f64);
+    let nearest = libm::rint(number * unit_of(to, types) as f64);
     let ns = nearest as i64; // saturates, NaN gives 0
     if !(nearest.abs() < 9.3e18 && ns as f64 == nearest) {
         call.fail();

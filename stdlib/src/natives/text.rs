@@ -126,6 +126,14 @@ fn put(call: &mut NativeCall, target: &Target, i: usize, value: u16) {
     }
 }
 
+/// A string with the bytes of every character swapped; those of STRING are one byte.
+pub(super) fn swap_bytes(call: &mut NativeCall, types: Types) -> Result<(), Trap> {
+    let from = source(call, 0, width(types.from))?;
+    let to = target(call, 2, width(types.from))?;
+    let wide = to.width == 2;
+    store_units(call, &to, from.len, |call, i| if wide { from.unit(call, i).swap_bytes() } else { from.unit(call, i) })
+}
+
 /// STRING to WSTRING and back; a character that the target does not have becomes `?`.
 pub(super) fn string_to_string(call: &mut NativeCall, types: Types) -> Result<(), Trap> {
     let from = source(call, 0, width(types.from))?;

@@ -1,13 +1,15 @@
-//! Values as text. From: library reference §2.3: integers decimal, bit strings `16#` and hexadecimal digits, reals the shortest
+//! Values as text. From: library reference §2.3. Standard: integers decimal, bit strings `16#` and hexadecimal digits, reals the shortest
 //! decimal that reads back as the same value, times and dates as literals with their prefix.
+//! CODESYS: bit strings decimal, reals of 7 or 16 digits, durations in whole milliseconds. OpenPLC: lower case, reals as `%.10g`.
 //! Runs: cyclic.
 
 use super::Types;
 use super::numbers::extend;
 use super::text::{store_units, target, width};
-use crate::calendar::{SECOND_NS, date_of, time_of_day};
+use crate::calendar::{MILLISECOND_NS, SECOND_NS, date_of, time_of_day};
 use crate::lookup::ConversionType;
 use std::fmt::{self, Write};
+use takt_base::Profile;
 use takt_image::literal_time::UNITS;
 use takt_image::{Elementary as E, NativeCall, Trap};
 
@@ -16,7 +18,7 @@ pub(super) fn to_string(call: &mut NativeCall, types: Types) -> Result<(), Trap>
     let ConversionType::Elementary(from) = types.from else { return Err(Trap::NativePanic) };
     let mut line = Line::default();
     // A Line takes whatever it is given, so that writing can't fail.
-    write_value(&mut line, call.i64(0) as u64, from).map_err(|_| Trap::NativePanic)?;
+    write_value(&mut line, call.i64(0) as u64, from, types.profile).map_err(|_| Trap::NativePanic)?;
     let to = target(call, 1, width(types.to))?;
     store_units(call, &to, line.len, |_, i| line.bytes.get(i).map_or(0, |&b| b.into()))
 }
@@ -43,15 +45,20 @@ impl Write for Line {
     }
 }
 
-fn write_value(line: &mut Line, slot: u64, ty: E) -> fmt::Result {
+fn write_value(line: &mut Line, slot: u64, ty: E, profile: Profile) -> fmt::Result {
     let bits = extend(slot, ty);
     match ty {
-        E::Real => write_real(line, format_args!("{:e}", f32::from_bits(slot as u32))),
-        E::Lreal => write_real(line, format_args!("{:e}", f64::from_bits(slot))),
+        E::Real if profile == Profile::Std => write_real(line, format_args!("{:e}", f32::from_bits(slot as u32)), POINT),
+        E::Lreal if profile == Profile::Std => write_real(line, format_args!("{:e}", f64::from_bits(slot)), POINT),
+        E::Real => write_vendor_real(line, f64::from(f32::from_bits(slot as u32)), 7, profile),
+        E::Lreal => write_vendor_real(line, f64::from_bits(slot), 16, profile),
         E::Bool => line.write_str(if bits != 0 { "TRUE" } else { "FALSE" }),
+        E::Byte | E::Word | E::Dword | E::Lword if profile.is_codesys() => write!(line, "{bits}"),
+        E::Byte | E::Word | E::Dword | E::Lword if profile == Profile::OpenPlc => write!(line, "16#{bits:x}"),
         E::Byte | E::Word | E::Dword | E::Lword => write!(line, "16#{bits:X}"),
-        E::Time => write_duration(line, "T#", bits as i64),
-        E::Ltime => write_duration(line, "LTIME#", bits as i64),
+        E::Time if profile.is_codesys() => write_duration(line, "T#", bits as i64 / MILLISECOND_NS * MILLISECOND_NS, "0ms"),
+        E::Time => write_duration(line, "T#", bits as i64, "0s"),
+        E::Ltime => write_duration(line, "LTIME#", bits as i64, "0s"),
         E::Date | E::Ldate => write_prefix(line, ty).and_then(|()| write_date(line, bits as i64)),
         E::Tod | E::Ltod => write_prefix(line, ty).and_then(|()| write_tod(line, bits as i64)),
         E::Dt | E::Ldt => write_instant(line, ty, bits as i64),
@@ -63,8 +70,20 @@ fn write_value(line: &mut Line, slot: u64, ty: E) -> fmt::Result {
 /// Decimal exponents in this range are written out.
 const PLAIN: std::ops::Range<i32> = -5..16;
 
+/// What stands behind a whole number.
+const POINT: &str = ".0";
+
+/// With so many significant digits at most, in C that is `%.10g`.
+fn write_vendor_real(line: &mut Line, value: f64, digits: usize, profile: Profile) -> fmt::Result {
+    if profile == Profile::OpenPlc {
+        return super::printf::write_g(line, value, 10);
+    }
+    let point = if profile == Profile::Codesys2 { "" } else { POINT };
+    write_real(line, format_args!("{value:.*e}", digits - 1), point)
+}
+
 /// From the shortest scientific form `d.ddde-7`: `1.5`, `100.0`, `1.0E+20`.
-fn write_real(line: &mut Line, scientific: fmt::Arguments) -> fmt::Result {
+fn write_real(line: &mut Line, scientific: fmt::Arguments, point: &str) -> fmt::Result {
     let mut shortest = Line::default();
     shortest.write_fmt(scientific)?;
     let text = shortest.bytes.get(..shortest.len).and_then(|b| std::str::from_utf8(b).ok()).unwrap_or("");
@@ -80,27 +99,29 @@ fn write_real(line: &mut Line, scientific: fmt::Arguments) -> fmt::Result {
     let exponent: i32 = exponent.parse().unwrap_or(0);
     let (sign, mantissa) = mantissa.strip_prefix('-').map_or(("", mantissa), |m| ("-", m));
     let (first, rest) = mantissa.split_once('.').unwrap_or((mantissa, ""));
+    let rest = rest.trim_end_matches('0');
     line.write_str(sign)?;
     if PLAIN.contains(&exponent) {
-        write_plain(line, first, rest, exponent)
+        write_plain(line, first, rest, exponent, point)
     } else {
         write!(line, "{first}.{}E{exponent:+}", if rest.is_empty() { "0" } else { rest })
     }
 }
 
-fn write_plain(line: &mut Line, first: &str, rest: &str, exponent: i32) -> fmt::Result {
+fn write_plain(line: &mut Line, first: &str, rest: &str, exponent: i32, point: &str) -> fmt::Result {
     let Ok(exponent) = usize::try_from(exponent) else {
         return write!(line, "0.{:0>1$}{first}{rest}", "", exponent.unsigned_abs() as usize - 1);
     };
     let (whole, fraction) = rest.split_at_checked(exponent).unwrap_or((rest, ""));
-    write!(line, "{first}{whole:0<exponent$}.{}", if fraction.is_empty() { "0" } else { fraction })
+    write!(line, "{first}{whole:0<exponent$}")?;
+    if fraction.is_empty() { line.write_str(point) } else { write!(line, ".{fraction}") }
 }
 
 /// Parts that are not zero.
-fn write_duration(line: &mut Line, prefix: &str, ns: i64) -> fmt::Result {
+fn write_duration(line: &mut Line, prefix: &str, ns: i64, zero: &str) -> fmt::Result {
     line.write_str(prefix)?;
     if ns == 0 {
-        return line.write_str("0s");
+        return line.write_str(zero);
     }
     if ns < 0 {
         line.write_str("-")?;

@@ -1,7 +1,9 @@
 //! Runs cycle tables: a fresh instance, one call a column, 10 ms apart.
 
+use takt_base::Profile;
 use takt_image::path;
 use takt_image::value::VarType;
+use takt_stdlib::vendor;
 use takt_tests::cycle_table::{CYCLE_MS, CycleTable, Row, parse};
 use takt_tests::plc::Plc;
 
@@ -10,7 +12,8 @@ pub fn check_file(file: &str, text: &str) -> usize {
     let tables = parse(text).unwrap_or_else(|e| panic!("{file}: {e:?}"));
     for table in &tables {
         for literal in [true, false] {
-            run(&format!("{file}:{} {}", table.line, table.block), table, &block_program(table, literal));
+            let profile = profile_of(file);
+            run(&format!("{file}:{} {}", table.line, table.block), profile, table, &block_program(profile, table, literal));
         }
     }
     tables.len()
@@ -21,16 +24,22 @@ pub fn check_procedures(file: &str, text: &str) -> usize {
     let tables = parse(text).unwrap_or_else(|e| panic!("{file}: {e:?}"));
     for table in &tables {
         for literal in [true, false] {
-            run(&format!("{file}:{} {}", table.line, table.block), table, &procedure_program(table, literal));
+            run(&format!("{file}:{} {}", table.line, table.block), Profile::Std, table, &procedure_program(table, literal));
         }
     }
     tables.len()
 }
 
+/// `openplc.md` is of that profile.
+fn profile_of(file: &str) -> Profile {
+    Profile::from_name(file.trim_end_matches(".md")).unwrap_or_default()
+}
+
 /// Inputs come from variables `in_X`, outputs go to `out_X`; `want_X` is written by the test to compare with.
-fn block_program(table: &CycleTable, literal: bool) -> String {
-    let probe = Plc::new(&format!("PROGRAM p VAR b : {}; END_VAR b(); END_PROGRAM", table.block));
+fn block_program(profile: Profile, table: &CycleTable, literal: bool) -> String {
+    let probe = Plc::new_in(profile, &format!("PROGRAM p VAR b : {}; END_VAR b(); END_PROGRAM", table.block));
     let ty = |pin: &str| {
+        let pin = vendor::pin(&table.block, pin).unwrap_or(pin);
         let found = path::resolve(&probe.image, &format!("p.b.{pin}")).unwrap_or_else(|e| panic!("{}: {e}", table.block));
         type_name(&probe, found.ty)
     };
@@ -63,8 +72,8 @@ fn program(table: &CycleTable, literal: bool, instance: &str, callee: &str, ty: 
     format!("PROGRAM p VAR {vars} END_VAR {callee}({}); END_PROGRAM", args.join(", "))
 }
 
-fn run(place: &str, table: &CycleTable, text: &str) {
-    let mut plc = Plc::new(text);
+fn run(place: &str, profile: Profile, table: &CycleTable, text: &str) {
+    let mut plc = Plc::new_in(profile, text);
     for scan in 0..table.scans {
         for row in &table.inputs {
             set(&mut plc, &format!("p.in_{}", row.name), row, scan);

@@ -91,7 +91,12 @@ impl Builder<'_> {
     /// Index of a parameter by its name; `output`: it is written with `=>`.
     fn named(&mut self, id: PouId, name: &ast::Name, output: bool) -> Option<usize> {
         let pou = &self.hir.pous[id];
-        let Some(slot) = pou.params.iter().position(|v| name.is(&pou.vars[*v].name)) else {
+        let slot = pou.params.iter().position(|v| name.is(&pou.vars[*v].name));
+        let slot = slot.or_else(|| {
+            let pin = self.vendor_pin(pou.instance?, name)?;
+            pou.params.iter().position(|v| pou.vars[*v].name == pin)
+        });
+        let Some(slot) = slot else {
             self.no_parameter(id, name);
             return None;
         };
@@ -119,6 +124,7 @@ impl Builder<'_> {
             return self.bound_value(e, ty);
         }
         let o = self.operand(e, Some(ty));
+        let o = self.preset_of_timer(id, var, o);
         self.fit_for(o, ty, Some(note))
     }
 
@@ -139,6 +145,9 @@ impl Builder<'_> {
             return None;
         }
         let source = Expr { kind: ExprKind::Load(place.clone()), ty, span: target.span };
+        if self.splits_into(id, &source, place.ty) {
+            return Some(place);
+        }
         let fitted = self.fit_for(Operand::fixed(source), place.ty, Some(note));
         (fitted.ty != self.error).then_some(place)
     }

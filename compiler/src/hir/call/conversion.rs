@@ -9,7 +9,7 @@ use takt_image::types::Type;
 use takt_image::{Elementary, TypeId};
 use takt_stdlib::catalog::Intrinsic;
 use takt_stdlib::lookup::{converts, transfers_bits, truncates};
-use takt_stdlib::{ConversionType, natives::native_conversion};
+use takt_stdlib::{ConversionType, natives::native_conversion_in};
 
 /// Capacity of the text of a scalar.
 const TEXT_CAPACITY: u32 = 64;
@@ -95,7 +95,7 @@ impl Builder<'_> {
         if from == to && source == ty {
             return arg;
         }
-        if let Some(name) = native_conversion(from, to).filter(|_| !truncate) {
+        if let Some(name) = native_conversion_in(self.profile(span), from, to).filter(|_| !truncate) {
             return self.native(name, vec![arg], ty, span).expr;
         }
         match (from, to) {

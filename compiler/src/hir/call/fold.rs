@@ -32,6 +32,10 @@ impl Builder<'_> {
                 let k = constant::int(first).and_then(|k| usize::try_from(k).ok());
                 rest.get(k.unwrap_or(0)).or(rest.first()).map(|c| Ok((*c).clone()))
             }
+            Intrinsic::MuxLast => {
+                let k = constant::int(first).and_then(|k| usize::try_from(k).ok());
+                k.and_then(|k| rest.get(k)).or(rest.last()).map(|c| Ok((*c).clone()))
+            }
             Intrinsic::Max | Intrinsic::Min => {
                 let keep = if i == Intrinsic::Max { Ordering::Greater } else { Ordering::Less };
                 rest.iter().try_fold(*first, |a, b| pick(a, b, keep)).map(|c| Ok(c.clone()))
@@ -39,6 +43,11 @@ impl Builder<'_> {
             Intrinsic::Limit => {
                 let low = pick(first, rest.first()?, Ordering::Greater)?;
                 pick(low, rest.get(1)?, Ordering::Less).map(|c| Ok(c.clone()))
+            }
+            Intrinsic::LimitLow => {
+                let high = pick(rest.first()?, rest.get(1)?, Ordering::Less)?;
+                let low = pick(first, rest.first()?, Ordering::Greater)?;
+                Some(Ok(if std::ptr::eq(low, *first) { low.clone() } else { high.clone() }))
             }
             Intrinsic::Abs if of?.is_real() => Some(Ok(Const::Real(constant::real(first)?.abs()))),
             Intrinsic::Abs => Some(constant::checked(of?, constant::int(first)?.abs())),

@@ -3,6 +3,7 @@
 
 mod arguments;
 mod conversion;
+mod dialect;
 mod enable;
 mod fold;
 mod standard;

@@ -98,6 +98,7 @@ impl Builder<'_> {
             Found::Conversion { .. } => formal.is("IN").then_some(0),
             Found::Function { function, .. } => {
                 let fixed = function.params.iter().position(|p| formal.is(p.name));
+                let fixed = fixed.or_else(|| edition_2(function, formal));
                 fixed.or_else(|| function.extensible.then(|| counted(function, formal)).flatten())
             }
         };
@@ -365,7 +366,7 @@ impl Builder<'_> {
                 Some(a) => self.complement(Operand::fixed(a), span, Some(ty)),
                 None => self.bad(span),
             },
-            Lowering::Inline(i) => self.intrinsic(i, args, ty, span),
+            Lowering::Inline(i) => self.in_profile(i, args, ty, span),
             Lowering::Native => {
                 let shared = f.params.iter().zip(&args).find(|(p, _)| matches!(p.ty, Pattern::T(_))).map(|(_, a)| a.ty);
                 let suffix = shared.map(|t| self.type_name(t)).unwrap_or_default();
@@ -443,6 +444,12 @@ fn arity(found: Found) -> (usize, usize) {
         Found::Conversion { .. } => (1, 1),
         Found::Function { function: f, .. } => (f.params.len(), if f.extensible { INPUTS_MAX } else { f.params.len() }),
     }
+}
+
+/// Edition 2 calls the inputs of CONCAT_DATE_TOD IN1 and IN2.
+fn edition_2(f: &Function, formal: &ast::Name) -> Option<usize> {
+    let names = ["IN1", "IN2"];
+    names.iter().position(|name| formal.is(name)).filter(|_| f.name.starts_with("CONCAT_DATE_"))
 }
 
 /// Position of IN3, IN4, ... behind the parameters that are listed.

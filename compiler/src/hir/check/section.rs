@@ -22,7 +22,8 @@ impl Builder<'_> {
         } else {
             self.check_retain_kept(section);
         }
-        if section.constant && matches!(section.kind, SectionKind::InOut | SectionKind::Output) {
+        let output = section.kind == SectionKind::Output && !self.profile(section.span).is_codesys();
+        if section.constant && (section.kind == SectionKind::InOut || output) {
             self.error(Code::SectionNotAllowed, section.span, "outputs and in-outs can't be CONSTANT");
         }
     }

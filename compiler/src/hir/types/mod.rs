@@ -75,9 +75,10 @@ impl Builder<'_> {
             return self.plain(ty);
         }
         self.check_unit_use(name);
-        match self.unit(name) {
-            Some((Unit::Type(index), _)) => self.declared_type(index, name.span),
-            Some((Unit::Pou(id), _)) => self.instance_type(id, name.span),
+        match self.named_unit(name) {
+            Some(Unit::Type(index)) => self.declared_type(index, name.span),
+            Some(Unit::Pou(id)) => self.instance_type(id, name.span),
+            None if self.is_vendor_block(name) => self.bad_type(),
             None => {
                 let known = self.unit_names().into_iter().chain(Elementary::ALL.iter().map(|e| e.name().to_owned())).collect();
                 self.unknown(Code::UnknownType, name, known);
@@ -91,7 +92,9 @@ impl Builder<'_> {
         if pou.kind == PouKind::Interface {
             return self.interface_type(id, at);
         }
-        if !matches!(pou.kind, PouKind::FunctionBlock | PouKind::Class) {
+        let program = pou.kind == PouKind::Program && self.profile(at).is_vendor();
+        self.hir.programs_are_instances |= program;
+        if !program && !matches!(pou.kind, PouKind::FunctionBlock | PouKind::Class) {
             let what = if pou.kind == PouKind::Program { "a PROGRAM" } else { "a FUNCTION" };
             let help = "only function blocks have instances; programs are listed in the CONFIGURATION";
             self.report(Diag::new(Code::UnknownType, at, what).message("this is not a type").help(help));

@@ -153,13 +153,14 @@ impl Unit<'_, '_> {
                 let ok = n.e.is_signed_storage().then(|| self.f.compare_const(Compare::SGe, n.local, 0));
                 (self.shifted(i, x, n), ok)
             }
-            (Intrinsic::Mux, [k, inputs @ ..]) => {
+            (Intrinsic::Mux | Intrinsic::MuxLast, [k, inputs @ ..]) => {
                 let values = self.operands(&args.iter().collect::<Vec<_>>());
                 let Value::Scalar(number) = values[0] else { unreachable!("K is a scalar") };
                 let signed = self.hir.elementary(k.ty).is_some_and(Elementary::is_signed_storage);
                 let number = self.f.resize(number, Scalar::I64, signed);
                 let ok = self.f.compare_const(Compare::ULt, number, inputs.len() as i64);
-                (self.mux(values, k), Some(ok))
+                let otherwise = if i == Intrinsic::Mux { 1 } else { inputs.len() };
+                (self.mux(values, k, otherwise), Some(ok))
             }
             (Intrinsic::Trunc, [a]) => {
                 let x = self.scalar_operand(a);

@@ -15,7 +15,7 @@ impl Unit<'_, '_> {
     pub fn intrinsic(&mut self, i: Intrinsic, args: &[Expr], ty: TypeId) -> Value {
         use Intrinsic::*;
         match i {
-            Sel | Mux | Max | Min | Limit | Move => self.selection(i, args, ty),
+            Sel | Mux | MuxLast | LimitLow | Max | Min | Limit | Move => self.selection(i, args, ty),
             Add => self.fold(Operator::Add, args, ty),
             Sub => self.fold(Operator::Sub, args, ty),
             Mul => self.fold(Operator::Mul, args, ty),
@@ -129,10 +129,19 @@ impl Unit<'_, '_> {
         let e = self.hir.elementary(ty);
         match i {
             Intrinsic::Sel => self.choose(scalar_of(values[0]), values[2], values[1]),
-            Intrinsic::Mux => self.mux(values, &args[0]),
+            Intrinsic::Mux => self.mux(values, &args[0], 1),
+            Intrinsic::MuxLast => {
+                let last = values.len() - 1;
+                self.mux(values, &args[0], last)
+            }
             Intrinsic::Limit => {
                 let raised = self.extreme(Operator::Gt, values[1], values[0], e);
                 self.extreme(Operator::Lt, raised, values[2], e)
+            }
+            Intrinsic::LimitLow => {
+                let high = self.extreme(Operator::Lt, values[1], values[2], e);
+                let above = self.comparison(Operator::Gt, values[1], values[0], e);
+                self.choose(above, high, values[0])
             }
             Intrinsic::Max | Intrinsic::Min => {
                 let op = if i == Intrinsic::Max { Operator::Gt } else { Operator::Lt };
@@ -142,12 +151,12 @@ impl Unit<'_, '_> {
         }
     }
 
-    /// Input number K, from 0; input 0 if there is none.
-    pub fn mux(&mut self, values: Vec<Value>, k: &Expr) -> Value {
+    /// Input number K, from 0; the one at `otherwise`, counted from 1, if there is none.
+    pub fn mux(&mut self, values: Vec<Value>, k: &Expr, otherwise: usize) -> Value {
         let e = self.hir.elementary(k.ty).expect("an integer");
         let k = self.f.resize(scalar_of(values[0]), Scalar::I64, e.is_signed_storage());
-        let mut chosen = values[1];
-        for (value, number) in values[2..].iter().zip(1..) {
+        let mut chosen = values[otherwise];
+        for (value, number) in values[1..].iter().zip(0..) {
             let this = self.f.compare_const(Compare::Eq, k, number);
             chosen = self.choose(this, *value, chosen);
         }

@@ -359,11 +359,6 @@ impl Parser<'_> {
                 self.eat(Tok::Caret); // vendor
                 ExprKind::Name(name)
             }
-            Kw::Ref if !self.is_used_as_name(token.kw) => {
-                self.unsupported_here("a reference (REF)");
-                self.bump();
-                ExprKind::Error
-            }
             kw if !kw.is_reserved() || self.is_used_as_name(kw) => ExprKind::Name(self.name()),
             kw if (is_function(kw) || kw.is_type()) && self.nth(1).kind == Tok::LParen => ExprKind::Name(self.bare_name()),
             kw if kw.is_type() && self.prev().kind == Tok::LParen && self.nth(1).kind == Tok::RParen => {

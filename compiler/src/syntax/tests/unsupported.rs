@@ -13,60 +13,20 @@ fn lacks(what: &str, text: &str) {
 }
 
 #[test]
-fn object_orientation() {
-    lacks(
-        "CLASS",
-        "CLASS c EXTENDS d VAR x : INT; END_VAR METHOD PUBLIC m : INT VAR_INPUT a : INT; END_VAR m := a; END_METHOD END_CLASS",
-    );
-    lacks("INTERFACE", "INTERFACE i EXTENDS j METHOD m : INT END_METHOD METHOD n END_METHOD END_INTERFACE");
-    lacks("METHOD", "FUNCTION_BLOCK b VAR x : INT; END_VAR METHOD PUBLIC m : INT m := 1; END_METHOD x := 1; END_FUNCTION_BLOCK");
-    lacks("METHOD", "FUNCTION_BLOCK b METHOD m VAR x : INT; END_VAR IF x THEN y(); END_IF; END_METHOD END_FUNCTION_BLOCK");
-    lacks(
-        "PROPERTY",
-        "FUNCTION_BLOCK b PROPERTY p : INT GET p := 1; END_GET SET x := p; END_SET END_PROPERTY END_FUNCTION_BLOCK",
-    );
-    lacks("EXTENDS", "FUNCTION_BLOCK b EXTENDS a.b VAR x : INT; END_VAR END_FUNCTION_BLOCK");
-    lacks("IMPLEMENTS", "FUNCTION_BLOCK b IMPLEMENTS i, j x := 1; END_FUNCTION_BLOCK");
-    lacks("FINAL", "FUNCTION_BLOCK FINAL b END_FUNCTION_BLOCK");
-    lacks("ABSTRACT", "FUNCTION_BLOCK ABSTRACT b END_FUNCTION_BLOCK");
-    lacks("THIS", "FUNCTION_BLOCK b THIS.m(); END_FUNCTION_BLOCK");
-    lacks("THIS", "FUNCTION_BLOCK b x := THIS^.y + 1; END_FUNCTION_BLOCK");
-    lacks("SUPER", "FUNCTION_BLOCK b SUPER(); END_FUNCTION_BLOCK");
-    lacks("SUPER", "FUNCTION_BLOCK b SUPER^(); END_FUNCTION_BLOCK");
-    lacks("PRIVATE", "FUNCTION_BLOCK b VAR PRIVATE x : INT; END_VAR END_FUNCTION_BLOCK");
-}
-
-#[test]
-fn namespaces() {
-    lacks(
-        "NAMESPACE",
-        "NAMESPACE a.b NAMESPACE c PROGRAM p END_PROGRAM END_NAMESPACE FUNCTION f : INT END_FUNCTION END_NAMESPACE",
-    );
-    lacks("USING", "USING a.b, c;");
-    lacks("USING", "FUNCTION f : INT USING a.b; f := 1; END_FUNCTION");
-    lacks("namespace", "PROGRAM p VAR x : a.b.C; END_VAR END_PROGRAM");
-}
-
-#[test]
 fn sections_and_types() {
     lacks("VAR_CONFIG", "CONFIGURATION c VAR_CONFIG r.p.x AT %QX1.0 : BOOL := 1; END_VAR PROGRAM p : m; END_CONFIGURATION");
     lacks("VAR_ACCESS", "CONFIGURATION c PROGRAM p : m; VAR_ACCESS a : r.%IX1.1 : BOOL READ_ONLY; END_VAR END_CONFIGURATION");
-    lacks("VAR_STAT", "FUNCTION f : INT VAR_STAT x : INT; END_VAR END_FUNCTION");
     lacks("VAR_INST", "FUNCTION_BLOCK f VAR_INST x : INT; END_VAR END_FUNCTION_BLOCK");
     lacks("PERSISTENT", "VAR_GLOBAL PERSISTENT RETAIN x : INT; END_VAR");
     lacks("EXTENDS", "TYPE t : STRUCT EXTENDS u a : INT; END_STRUCT; END_TYPE");
     lacks("EXTENDS", "TYPE t EXTENDS u : STRUCT a : INT; END_STRUCT; END_TYPE");
     lacks("variable length", "FUNCTION f : INT VAR_IN_OUT a : STRING[*]; END_VAR END_FUNCTION");
-    lacks("arguments", "PROGRAM p VAR x : fb(a := 1, b := 2); END_VAR END_PROGRAM");
     lacks("task of its own", "CONFIGURATION c TASK t(PRIORITY := 1); PROGRAM p : m(fb WITH t); END_CONFIGURATION");
 }
 
 #[test]
 fn statements() {
     lacks("assignment inside", "PROGRAM p IF (x := y) THEN z(); END_IF; END_PROGRAM");
-    lacks("label", "PROGRAM p again: x := 1; END_PROGRAM");
-    lacks("label", "PROGRAM p again:\n x := 1; END_PROGRAM");
-    lacks("JMP", "PROGRAM p JMP again; x := 1; END_PROGRAM");
     lacks("inline C", "PROGRAM p {extern int x;} x := 1; END_PROGRAM");
 }
 
@@ -78,10 +38,6 @@ fn charts_actions_and_lists() {
     lacks("ACTION", "PROGRAM p x := 1; ACTION a: IF x THEN y(); END_IF; END_ACTION END_PROGRAM");
     lacks("ACTION", "PROGRAM p END_PROGRAM ACTION a: y := 1; END_ACTION");
     lacks("ACTIONS", "PROGRAM p END_PROGRAM ACTIONS ACTION a: y := 1; END_ACTION END_ACTIONS");
-    lacks("Instruction List", "PROGRAM p VAR a : BOOL; END_VAR\nLD a\nANDN b\nST q\nEND_PROGRAM");
-    lacks("Instruction List", "FUNCTION f : INT\nLD 5\nSUB( 2\nMUL 3\n)\nST f\nEND_FUNCTION");
-    lacks("Instruction List", "PROGRAM p\nstart: LD a\nJMPCN start\nEND_PROGRAM");
-    lacks("Instruction List", "PROGRAM p\nLDN %IX0.0\nCAL t(IN := a)\nRET\nEND_PROGRAM");
 }
 
 /// A construct without its end does not take the rest of the file with it.
@@ -89,7 +45,7 @@ fn charts_actions_and_lists() {
 fn an_open_construct_ends_at_the_next_unit() {
     let printed = |text: &str| print::file(&parse(text).0);
     assert_eq!(printed("FUNCTION_BLOCK b METHOD m x := 1; END_FUNCTION_BLOCK PROGRAM p END_PROGRAM"), "(fb b) (program p)");
-    assert_eq!(printed("CLASS c METHOD m END_METHOD PROGRAM p END_PROGRAM"), "(program p)");
+    assert_eq!(printed("CLASS c METHOD m END_METHOD PROGRAM p END_PROGRAM"), "(class c) (program p)");
     assert_eq!(printed("PROGRAM a VAR_CONFIG x.y : INT; END_PROGRAM PROGRAM p END_PROGRAM"), "(program a) (program p)");
 }
 

@@ -57,8 +57,14 @@ impl Parser<'_> {
             Word::Call(_) => next == Tok::Word && !alone,
             Word::Simple(Op::Not, _) => alone,
             Word::Simple(..) if self.nth(n).kw.is_reserved() => next != Tok::LParen,
-            Word::Simple(..) => !alone && starts_operand(next),
+            Word::Simple(..) => !alone && starts_operand(next) && !self.is_set_at(n + 1),
         }
+    }
+
+    /// True at `S=`, `R=`, `REF=`: what stands before it is a variable of an ST statement.
+    fn is_set_at(&self, n: usize) -> bool {
+        let (word, next) = (self.nth(n), self.nth(n + 1));
+        next.kind == Tok::Eq && next.start == word.end
     }
 
     /// True if `function( .. )` without a `;` stands there, with an instruction behind it.
@@ -108,13 +114,13 @@ impl Parser<'_> {
                 return Line { label, instr: None };
             }
         }
-        let instr = self.instr(false);
-        self.line_end();
+        let mut instr = self.instr(false);
+        self.line_end(&mut instr.kind);
         Line { label, instr: Some(instr) }
     }
 
-    /// What stands behind an instruction on its line is wrong.
-    fn line_end(&mut self) {
+    /// What stands behind an instruction on its line is wrong, and so is the instruction then.
+    fn line_end(&mut self, instr: &mut InstrKind) {
         if !self.lost && self.is_same_line(0) && !self.ends_list() {
             let diag = self.expected_diag("the end of the line");
             self.error(match self.kind() {
@@ -123,6 +129,7 @@ impl Parser<'_> {
             });
         }
         if self.lost {
+            *instr = InstrKind::Error;
             self.skip_line();
         }
     }
@@ -230,10 +237,11 @@ impl Parser<'_> {
         if self.is_same_line(0) && !self.at(Tok::RParen) && self.operator_before_operand().is_none() {
             let operand = self.operand();
             let span = operand.span;
-            list.push(Instr { kind: InstrKind::Simple { op: Op::Load, negated: false, operand: Some(operand) }, span });
+            let mut kind = InstrKind::Simple { op: Op::Load, negated: false, operand: Some(operand) };
             if !self.at(Tok::RParen) {
-                self.line_end();
+                self.line_end(&mut kind);
             }
+            list.push(Instr { kind, span });
         }
         list.append(&mut self.inner_list(opener));
         InstrKind::Deferred { op, negated, list }
@@ -264,10 +272,11 @@ impl Parser<'_> {
                 self.skip_line();
                 continue;
             }
-            list.push(self.instr(true));
+            let mut instr = self.instr(true);
             if !self.at(Tok::RParen) || self.lost {
-                self.line_end();
+                self.line_end(&mut instr.kind);
             }
+            list.push(instr);
             if self.pos == before {
                 self.bump();
             }
