@@ -74,9 +74,10 @@ fn one_short_name_in_two_namespaces() {
     assert_eq!(errors(&format!("{two} USING a, b; TYPE U : a.T; END_TYPE")), []);
     // The inner USING wins over the outer one.
     assert_eq!(errors(&format!("{two} USING a; NAMESPACE c USING b; TYPE U : T := 1.5; END_TYPE END_NAMESPACE")), []);
-    assert_eq!(errors("NAMESPACE a TYPE T : INT; END_TYPE END_NAMESPACE NAMESPACE a TYPE T : INT; END_TYPE END_NAMESPACE"), [
-        Code::DuplicateName
-    ]);
+    assert_eq!(
+        errors("NAMESPACE a TYPE T : INT; END_TYPE END_NAMESPACE NAMESPACE a TYPE T : INT; END_TYPE END_NAMESPACE"),
+        [Code::DuplicateName]
+    );
 }
 
 #[test]
@@ -147,7 +148,10 @@ fn project(files: &[(&str, &str)]) -> Vec<String> {
 fn a_file_of_globals_is_a_list() {
     let lists = [
         ("src/GVL.st", "VAR_GLOBAL a : INT; both : INT; END_VAR"),
-        ("Other.TcGVL.st", "{attribute 'qualified_only'} VAR_GLOBAL CONSTANT n : INT := 3; END_VAR VAR_GLOBAL both : INT; END_VAR"),
+        (
+            "Other.TcGVL.st",
+            "{attribute 'qualified_only'} VAR_GLOBAL CONSTANT n : INT := 3; END_VAR VAR_GLOBAL both : INT; END_VAR",
+        ),
     ];
     let with = |body: &str| {
         let main = format!("PROGRAM Main VAR v : ARRAY[0..Other.n] OF INT; END_VAR {body} END_PROGRAM");
@@ -167,6 +171,9 @@ fn a_point_in_front_means_the_global() {
                 x := 1; y := .x; .x := 7; z := test.x; END_PROGRAM";
     let mut plc = Plc::new_in(Profile::Codesys, text);
     plc.scans(1);
-    assert_eq!((plc.get("Main.x"), plc.get("Main.y"), plc.get("Main.z"), plc.get("x")), ("1".into(), "5".into(), "7".into(), "7".into()));
+    assert_eq!(
+        (plc.get("Main.x"), plc.get("Main.y"), plc.get("Main.z"), plc.get("x")),
+        ("1".into(), "5".into(), "7".into(), "7".into())
+    );
     assert!(compile_in(Profile::Std, text).diags.iter().any(|d| d.code == Code::VendorForm));
 }

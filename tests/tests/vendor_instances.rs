@@ -20,7 +20,8 @@ fn errors(profile: Profile, text: &str) -> Vec<Code> {
 
 #[test]
 fn a_program_is_called_like_its_only_instance() {
-    let text = "PROGRAM Sub VAR_INPUT in : INT := 3; END_VAR VAR_OUTPUT out : INT; END_VAR VAR n : DINT := 10; k : INT := 2; END_VAR
+    let text =
+        "PROGRAM Sub VAR_INPUT in : INT := 3; END_VAR VAR_OUTPUT out : INT; END_VAR VAR n : DINT := 10; k : INT := 2; END_VAR
                   n := n + 1; out := in * k; END_PROGRAM
                 PROGRAM Main VAR a : INT; b : INT; c : DINT; END_VAR
                   Sub(); a := Sub.out; Sub(in := 5, out => b); Sub.in := 7; c := Sub.n; END_PROGRAM";

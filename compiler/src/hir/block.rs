@@ -71,7 +71,11 @@ impl Builder<'_> {
         if !matches!(self.ty(place.ty), Type::Instance(_)) {
             return None;
         }
-        self.objects.types.get(&place.ty).copied().filter(|id| matches!(self.hir.pous[*id].kind, PouKind::FunctionBlock | PouKind::Program))
+        self.objects
+            .types
+            .get(&place.ty)
+            .copied()
+            .filter(|id| matches!(self.hir.pous[*id].kind, PouKind::FunctionBlock | PouKind::Program))
     }
 
     fn block_arguments(&mut self, instance: Place, id: PouId, given: Vec<Option<Given>>, span: Span) -> Option<StmtKind> {

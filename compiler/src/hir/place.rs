@@ -170,8 +170,7 @@ impl Builder<'_> {
                 }
             },
         };
-        let known = self.ensure_global(id) || self.place_only && self.hir.globals[id].ty != self.error;
-        if !known {
+        if !(self.ensure_global(id) || self.place_only && self.hir.globals[id].ty != self.error) {
             let label = format!("the value of `{}` depends on itself", n.text);
             self.error(Code::NotConstant, n.span, label);
             return None;

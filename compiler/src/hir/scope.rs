@@ -77,7 +77,9 @@ impl Builder<'_> {
         self.check_global_use(name, id);
         if self.scope.pou.is_some()
             && !self.profile(name.span).is_vendor()
-            && !self.symbols.global_entries[id].library && self.scope.mentioned.insert(id) {
+            && !self.symbols.global_entries[id].library
+            && self.scope.mentioned.insert(id)
+        {
             let span = self.hir.globals[id].span;
             self.report(
                 Diag::new(Code::GlobalWithoutExternal, name.span, "a global variable")

@@ -241,7 +241,7 @@ impl Builder<'_> {
             return call;
         }
         if let Some(o) = self.method_call(callee, args, e.span) {
-            return (!self.is_bad(&o)).then(|| StmtKind::Call(o.expr));
+            return (!self.is_bad(&o)).then_some(StmtKind::Call(o.expr));
         }
         if let Some(call) = self.block_call(callee, args, e.span) {
             return call;

@@ -184,7 +184,7 @@ impl Builder<'_> {
             Add | Sub => number || e.is_real() || e.is_duration(),
             Mul | Div => number || e.is_real(),
             Mod => number,
-            And | Or | Xor => e.is_bit() || number && mixes,
+            And | Or | Xor => e.is_bit() || e.is_int() && mixes,
             AndThen | OrElse => e == Elementary::Bool,
             Eq | Ne | Lt | Gt | Le | Ge => true,
             Power => e.is_real(),

@@ -70,7 +70,7 @@ impl Builder<'_> {
             let ty = self.elem(e);
             return self.plain(ty);
         }
-        if name.is("BIT") && !self.unit(name).is_some() && self.profile(name.span).is_codesys() {
+        if name.is("BIT") && self.unit(name).is_none() && self.profile(name.span).is_codesys() {
             let ty = self.bool();
             return self.plain(ty);
         }

@@ -203,7 +203,8 @@ pub fn symbols(hir: &Hir, data: &Data) -> Vec<Symbol> {
 fn program_symbols(hir: &Hir, program: &ProgramInstance, offset: u32) -> Vec<Symbol> {
     let pou = &hir.pous[program.pou];
     let symbol = |name: String, ty, place| Symbol { name, ty, place, constant: false, retain: false };
-    let itself = pou.instance.filter(|_| program.global.is_none()).map(|ty| symbol(program.name.clone(), ty, ImagePlace::Byte(offset)));
+    let itself =
+        pou.instance.filter(|_| program.global.is_none()).map(|ty| symbol(program.name.clone(), ty, ImagePlace::Byte(offset)));
     let located = pou.vars.iter().filter(|v| v.role != Role::Hidden).filter_map(|v| match v.storage {
         Storage::Image(place) => Some(symbol(format!("{}.{}", program.name, v.name), v.ty, place)),
         _ => None,

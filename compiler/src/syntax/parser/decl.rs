@@ -58,9 +58,9 @@ impl Parser<'_> {
             return;
         }
         let diag = self.expected_diag("a declaration");
-        self.error(
-            diag.help("a file holds PROGRAM, FUNCTION_BLOCK, FUNCTION, CLASS, INTERFACE, TYPE, NAMESPACE, VAR_GLOBAL and CONFIGURATION"),
-        );
+        self.error(diag.help(
+            "a file holds PROGRAM, FUNCTION_BLOCK, FUNCTION, CLASS, INTERFACE, TYPE, NAMESPACE, VAR_GLOBAL and CONFIGURATION",
+        ));
         self.bump();
         self.skip_to_item();
     }

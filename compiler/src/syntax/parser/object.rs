@@ -209,15 +209,10 @@ impl Parser<'_> {
                 span,
             };
             let kind = SectionKind::Input;
-            sections.insert(0, VarSection {
-                kind,
-                constant: false,
-                retain: None,
-                access: None,
-                qualified_only: false,
-                decls: vec![decl],
-                span,
-            });
+            sections.insert(
+                0,
+                VarSection { kind, constant: false, retain: None, access: None, qualified_only: false, decls: vec![decl], span },
+            );
         }
         let objects = Objects { modifiers, accessor: Some(accessor), ..Objects::default() };
         let (kind, name) = (PouKind::Method, head.name.clone());

@@ -7,11 +7,7 @@ use takt_base::Profile;
 use takt_base::diag::{Code, Diag};
 
 /// Declarations by opening and closing keyword.
-const CONSTRUCTS: [(Kw, Kw); 3] = [
-    (Kw::Action, Kw::EndAction),
-    (Kw::Actions, Kw::EndActions),
-    (Kw::Resource, Kw::EndResource),
-];
+const CONSTRUCTS: [(Kw, Kw); 3] = [(Kw::Action, Kw::EndAction), (Kw::Actions, Kw::EndActions), (Kw::Resource, Kw::EndResource)];
 
 impl Parser<'_> {
     pub(super) fn unsupported_diag(&self, what: &str) -> Diag {

@@ -48,7 +48,8 @@ impl Parser<'_> {
         }
         let qualified_only = self.tokens.qualified_only.binary_search(&self.pos).is_ok();
         self.bump();
-        let mut section = VarSection { kind, constant: false, retain: None, access: None, qualified_only, decls: Vec::new(), span: start };
+        let mut section =
+            VarSection { kind, constant: false, retain: None, access: None, qualified_only, decls: Vec::new(), span: start };
         self.qualifiers(&mut section);
         section.span = self.since(start);
         self.decls(&mut section, start, kw);
