@@ -81,8 +81,8 @@ fn enumerations_of_every_form() {
     std(
         "",
         "s : (idle, run) := run; t : (open, shut); x : BOOL;",
-        "x := s = run; t := off",
-        &[("s", "run"), ("t", "off"), ("x", "TRUE")],
+        "x := s = run; t := shut",
+        &[("s", "run"), ("t", "shut"), ("x", "TRUE")],
     );
     std(
         "TYPE S : STRUCT m : (low, high) := high; END_STRUCT; END_TYPE",
@@ -177,9 +177,9 @@ fn the_outermost_initial_value_wins() {
     // Constants of the file, whatever their order, and functions of the library.
     std(
         "VAR_GLOBAL CONSTANT last : INT := first + 2; first : INT := 3; END_VAR",
-        "a : ARRAY[first..last] OF INT := [last - first + 1(last)]; b : INT := MAX(first, 4) * 2;",
-        "",
-        &[("b", "8")],
+        "a : ARRAY[first..last] OF INT := [first(last)]; b : INT := MAX(first, 4) * 2; n : INT;",
+        "n := a[5]",
+        &[("b", "8"), ("n", "5")],
     );
 }
 
