@@ -66,6 +66,10 @@ codes! {
     P1007 AmbiguousEnumerator "several enumerations have a value of this name";
     P1008 GlobalWithoutExternal "a global is used without a VAR_EXTERNAL declaration" Warning;
     P1009 ExternalMismatch "VAR_EXTERNAL does not match a global variable";
+    P1040 AmbiguousName "this name is found in more than one place";
+    P1041 UnknownNamespace "no namespace has this name";
+    P1042 InternalNamespace "this namespace is INTERNAL";
+    P1043 QualifiedOnly "this global needs the name of its list or namespace";
     P1020 AccessDenied "this member can't be used from here";
     P1021 MemberClash "a method and a variable have the same name";
     P1022 HidesInherited "this variable has the name of an inherited one";

@@ -12,7 +12,7 @@ impl Builder<'_> {
     pub fn writable(&mut self, e: &ast::Expr) -> Option<Place> {
         if let ast::ExprKind::Name(n) = &e.kind
             && self.is_enumerator(e)
-            && !self.symbols.globals.contains_key(&n.key())
+            && self.global_id(n).is_none()
         {
             self.error(Code::NotAVariable, e.span, "a value of an enumeration");
             return None;

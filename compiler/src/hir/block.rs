@@ -28,8 +28,8 @@ impl Builder<'_> {
             (Some(_), _) => true,
             (None, _) if self.is_this(name) => true,
             (None, _) => {
-                let function = matches!(self.symbols.units.get(&name.key()), Some((Unit::Pou(_), _)));
-                !function && self.symbols.globals.contains_key(&name.key())
+                let function = matches!(self.unit(name), Some((Unit::Pou(_), _)));
+                self.named_program(name).is_some() || !function && self.global_id(name).is_some()
             }
         }
     }

@@ -52,6 +52,8 @@ pub(super) struct Builder<'a> {
     pub planned: Vec<super::instance::Planned>,
     /// Initial values of program instances that VAR_CONFIG changes.
     pub values: BTreeMap<Root, Const>,
+    /// Implicit instances of programs (vendor).
+    pub program_globals: HashMap<PouId, GlobalId>,
     leaves: usize,
     depth: u32,
 }
@@ -83,6 +85,7 @@ impl<'a> Builder<'a> {
             objects: super::objects::Table::default(),
             planned: Vec::new(),
             values: BTreeMap::new(),
+            program_globals: HashMap::new(),
             leaves: 0,
             depth: 0,
         }

@@ -26,7 +26,8 @@ impl<'a> Builder<'a> {
     pub fn configure(&mut self) {
         let resources: Vec<&'a ast::Resource> = self.symbols.configurations.iter().flat_map(|c| &c.resources).collect();
         if self.symbols.configurations.is_empty() {
-            return self.default_configuration();
+            self.default_configuration();
+            return self.share_programs();
         }
         if let Some(second) = resources.get(1) {
             let name = second.name.as_ref().or_else(|| second.programs.first().map(|p| &p.name));
@@ -37,6 +38,7 @@ impl<'a> Builder<'a> {
         if let Some(resource) = resources.first() {
             self.resource(resource);
         }
+        self.share_programs();
     }
 
     fn default_configuration(&mut self) {
@@ -45,6 +47,10 @@ impl<'a> Builder<'a> {
             p.kind == PouKind::Program && !entry.library && entry.decl.test.is_none()
         });
         let mut programs: Vec<_> = mine.map(|(pou, p)| instance(p.name.clone(), pou)).collect();
+        let called = self.called_programs();
+        if programs.iter().any(|p| !called.contains(&p.pou)) {
+            programs.retain(|p| !called.contains(&p.pou));
+        }
         programs.iter_mut().for_each(|p| p.init = self.values.remove(&p.root()));
         for program in &programs {
             let at = self.symbols.pous[program.pou].decl.name.span;
@@ -134,8 +140,9 @@ impl<'a> Builder<'a> {
     }
 
     fn program(&mut self, decl: &'a ast::ProgramDecl) -> Option<ProgramInstance> {
-        let pou = match self.symbols.units.get(&decl.ty.key()) {
-            Some(&(Unit::Pou(id), _)) if self.hir.pous[id].kind == PouKind::Program => id,
+        self.check_unit_use(&decl.ty);
+        let pou = match self.unit(&decl.ty) {
+            Some((Unit::Pou(id), _)) if self.hir.pous[id].kind == PouKind::Program => id,
             Some(_) => {
                 let diag = Diag::new(Code::UnknownType, decl.ty.span, "not a PROGRAM").message("a task runs programs");
                 self.report(diag.help("wrap it: declare an instance in a PROGRAM and call it there"));
@@ -243,7 +250,16 @@ impl<'a> Builder<'a> {
 }
 
 pub(super) fn instance(name: String, pou: PouId) -> ProgramInstance {
-    ProgramInstance { name, pou, resource: 0, keep: Keep::Unsaid, init: None, inputs: Vec::new(), outputs: Vec::new() }
+    ProgramInstance {
+        name,
+        pou,
+        resource: 0,
+        global: None,
+        keep: Keep::Unsaid,
+        init: None,
+        inputs: Vec::new(),
+        outputs: Vec::new(),
+    }
 }
 
 /// Reports every direct address in a configuration.

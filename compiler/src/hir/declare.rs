@@ -29,7 +29,7 @@ impl Builder<'_> {
     /// Resolves a global; false if it is being resolved, so that it depends on itself.
     pub fn ensure_global(&mut self, id: GlobalId) -> bool {
         let entry = &mut self.symbols.global_entries[id];
-        let decl = entry.decl;
+        let Some(decl) = entry.decl else { return true };
         match entry.state {
             State::Done => return true,
             State::Busy => return false,

@@ -2,6 +2,7 @@
 //! byte b, `%QXn` bit n mod 8 of byte n / 8.
 
 use super::builder::Builder;
+use super::hierarchy::{self, Hierarchy, is_hierarchical};
 use super::model::*;
 use super::place::{Access, Target};
 use crate::syntax::ast::{self, AddressSize, Area};
@@ -23,20 +24,21 @@ pub(super) enum Owner {
 /// A place relative to the start of its area.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct Cell {
-    area: Area,
-    byte: u32,
-    bit: Option<u8>,
+    pub area: Area,
+    pub byte: u32,
+    pub bit: Option<u8>,
 }
 
 /// Located variables, extents of the areas, and where they start once all are known.
 #[derive(Default)]
 pub(super) struct ImagePlan {
-    located: Vec<(Owner, Cell)>,
+    pub located: Vec<(Owner, Cell)>,
+    pub hierarchy: Hierarchy,
     areas: HashMap<Owner, Area>,
     /// Declared with an address that VAR_CONFIG gives: `%Q*`.
     open: HashMap<Owner, Area>,
     mirrors: Vec<(Mirror, Cell)>,
-    extent: [u32; 3],
+    pub extent: [u32; 3],
     starts: [u32; 3],
 }
 
@@ -116,10 +118,7 @@ impl Builder<'_> {
                 return None;
             }
             (size, [n]) => (u64::from(*n) * u64::from(size_type(size).bytes()), None),
-            _ => {
-                self.unsupported(a.span, "a hierarchical address", "use one number, or byte and bit");
-                return None;
-            }
+            _ => return self.image.hierarchy.cell(a),
         };
         if byte + bytes > AREA_MAX {
             let help = format!("%I, %Q and %M have {AREA_MAX} bytes each");
@@ -135,6 +134,11 @@ impl Builder<'_> {
             return;
         }
         let bytes = self.hir.types.layout(ty).size;
+        if is_hierarchical(a) {
+            self.image.hierarchy.note(a, bytes);
+            self.image.areas.insert(owner, a.area);
+            return self.image.hierarchy.locate(owner, a);
+        }
         let Some(cell) = self.cell(a, bytes.into()) else { return };
         self.image.reserve(cell, bytes);
         self.image.areas.insert(owner, cell.area);
@@ -200,6 +204,10 @@ impl Builder<'_> {
     /// Sizes the areas by all addresses of the project and gives every located variable its place.
     pub fn place_image(&mut self) {
         self.reserve_bodies();
+        if let Some(at) = self.image.place_hierarchy(AREA_MAX) {
+            let help = format!("%I, %Q and %M have {AREA_MAX} bytes each");
+            self.report(Diag::new(Code::TypeTooLarge, at, "no room behind the plain addresses").help(help));
+        }
         self.hir.image_bytes = self.image.extent;
         let [i, q, m] = self.image.extent;
         let map = MemoryMap::new(i, q, m, 0, 0).unwrap_or_default();
@@ -224,7 +232,11 @@ impl Builder<'_> {
     /// Addresses in statements and in the configuration. What is wrong is reported where it is used.
     fn reserve_bodies(&mut self) {
         let mut found: Vec<(Area, u64)> = Vec::new();
+        let hierarchy = &mut self.image.hierarchy;
         let mut note = |a: &ast::Address| {
+            if is_hierarchical(a) {
+                return hierarchy.note(a, hierarchy::width(a));
+            }
             let width = u64::from(size_type(a.size).bytes());
             match (a.size, a.path.as_slice()) {
                 (AddressSize::Bit, [n]) => found.push((a.area, u64::from(n / 8) + 1)),

@@ -35,6 +35,8 @@ pub struct Hir {
     pub tasks: Vec<Task>,
     /// Variables of single instances that stand for an address, which VAR_CONFIG gives.
     pub mirrors: Vec<Mirror>,
+    /// A program may be a variable too (vendor): its instance may be a global.
+    pub programs_are_instances: bool,
     /// Bytes used in %I, %Q, %M: one past the highest address.
     pub image_bytes: [u32; 3],
 }
@@ -245,6 +247,8 @@ pub struct ProgramInstance {
     pub keep: Keep,
     /// Initial value of the whole instance, if VAR_CONFIG gives one to a part of it.
     pub init: Option<Const>,
+    /// The variable that this instance is, if it is one (vendor).
+    pub global: Option<GlobalId>,
     /// Copied before each run: input (or output) variable of the program, value.
     pub inputs: Vec<(VarId, Expr)>,
     /// Copied after each run.

@@ -129,7 +129,14 @@ impl Builder<'_> {
             ast::ExprKind::Name(n) => self.variable(n),
             ast::ExprKind::Direct(a) => self.direct(a),
             ast::ExprKind::Member(base, name) => {
-                let base = self.place(base)?;
+                if let Some(full) = self.qualified(e).filter(|n| self.global_id(n).is_some()) {
+                    return self.variable(&full);
+                }
+                let full = self.qualified(base).filter(|n| self.named_program(n).is_some());
+                let base = match full {
+                    Some(full) => self.variable(&full)?,
+                    None => self.place(base)?,
+                };
                 self.member(base, name, e.span)
             }
             ast::ExprKind::Deref(base) => self.deref(base, e.span),
@@ -156,6 +163,9 @@ impl Builder<'_> {
             None => match self.global(n) {
                 Some(id) => id,
                 None => {
+                    if let Some(program) = self.program_place(n) {
+                        return program;
+                    }
                     self.no_variable(n);
                     return None;
                 }
@@ -190,9 +200,9 @@ impl Builder<'_> {
     }
 
     fn no_variable(&mut self, n: &ast::Name) {
-        let what = match self.symbols.units.get(&n.key()) {
+        let what = match self.unit(n) {
             Some((Unit::Type(_), _)) => Some("a type"),
-            Some((Unit::Pou(id), _)) => Some(match self.hir.pous[*id].kind {
+            Some((Unit::Pou(id), _)) => Some(match self.hir.pous[id].kind {
                 PouKind::Function => "a function: call it with ( )",
                 PouKind::FunctionBlock => "a function block: declare an instance of it",
                 PouKind::Class => "a class: declare an instance of it",
@@ -204,6 +214,7 @@ impl Builder<'_> {
         };
         match what {
             Some(what) => self.error(Code::NotAVariable, n.span, what),
+            None if self.needs_list(n) => {}
             None if self.scope.unknown.insert(n.key()) => {
                 let known = self.value_names();
                 self.unknown(Code::UnknownName, n, known);
@@ -374,7 +385,7 @@ impl Builder<'_> {
     /// `w.cBit` (vendor): the number of a bit as a constant.
     fn named_bit(&mut self, base: &Place, name: &ast::Name) -> Option<u32> {
         let bits = self.elementary_or_base(base.ty).is_some_and(|e| e.is_int() || e.is_bit());
-        let known = self.local(&name.key()).is_some() || self.symbols.globals.contains_key(&name.key());
+        let known = self.local(&name.key()).is_some() || self.global_id(name).is_some();
         if !bits || !known || !self.profile(name.span).is_codesys() {
             return None;
         }

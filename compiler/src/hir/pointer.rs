@@ -14,7 +14,7 @@ impl Builder<'_> {
     /// REF, ADR, SIZEOF and the like, which no catalogue can describe; `None` if the name is another.
     pub(super) fn special_call(&mut self, name: &ast::Name, args: &[ast::Arg], span: Span) -> Option<Operand> {
         let key = name.key();
-        if self.local(&key).is_some() || self.symbols.units.contains_key(&key) {
+        if self.local(&key).is_some() || self.unit(name).is_some() {
             return None;
         }
         if matches!(&*key, "LOWER_BOUND" | "UPPER_BOUND") {
@@ -71,7 +71,10 @@ impl Builder<'_> {
     fn size_of(&mut self, e: &ast::Expr, span: Span) -> Operand {
         let ty = match &e.kind {
             ast::ExprKind::Name(n) if !self.names_variable(n) && self.names_type(n) => self.named_type(n).ty,
-            _ => self.operand(e, None).expr.ty,
+            _ => match self.qualified(e).filter(|n| self.unit(n).is_some()) {
+                Some(n) => self.named_type(&n).ty,
+                None => self.operand(e, None).expr.ty,
+            },
         };
         if ty == self.error {
             return self.bad(span);
@@ -81,7 +84,7 @@ impl Builder<'_> {
     }
 
     fn names_type(&self, n: &ast::Name) -> bool {
-        Elementary::from_name(&n.text).is_some() || self.symbols.units.contains_key(&n.key())
+        Elementary::from_name(&n.text).is_some() || self.unit(n).is_some()
     }
 
     fn is_valid_reference(&mut self, e: &ast::Expr, span: Span) -> Operand {

@@ -39,6 +39,7 @@ impl Builder<'_> {
         if let ast::TypeRefKind::Named(name) = &t.kind
             && Elementary::from_name(&name.text).is_none()
         {
+            self.check_unit_use(name);
             match self.named_unit(name) {
                 Some(Unit::Type(index)) if matches!(self.symbols.types[index].decl.body, ast::TypeBody::Struct(_)) => {
                     return self.reserved_type(index);
@@ -59,7 +60,8 @@ impl Builder<'_> {
             return entry.result.as_ref().map_or(self.error, |r| r.ty);
         }
         let known = entry.reserved;
-        let id = known.unwrap_or_else(|| self.hir.types.add(Type::Struct(unfinished(&entry.decl.name.text))));
+        let name = self.full_name(&entry.decl.name).text;
+        let id = known.unwrap_or_else(|| self.hir.types.add(Type::Struct(unfinished(&name))));
         self.symbols.types[index].reserved = Some(id);
         id
     }

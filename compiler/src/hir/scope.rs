@@ -73,8 +73,13 @@ impl Builder<'_> {
 
     /// The global of this name; its direct use without VAR_EXTERNAL is mentioned once a unit.
     pub fn global(&mut self, name: &ast::Name) -> Option<GlobalId> {
-        let id = *self.symbols.globals.get(&name.key())?;
-        if self.scope.pou.is_some() && !self.symbols.global_entries[id].library && self.scope.mentioned.insert(id) {
+        let id = self.global_id(name)?;
+        self.check_global_use(name, id);
+        if self.scope.pou.is_some()
+            && !self.profile(name.span).is_vendor()
+            && !self.symbols.global_entries[id].library
+            && self.scope.mentioned.insert(id)
+        {
             let span = self.hir.globals[id].span;
             self.report(
                 Diag::new(Code::GlobalWithoutExternal, name.span, "a global variable")
@@ -87,8 +92,8 @@ impl Builder<'_> {
 
     /// The unit of this name.
     pub fn pou(&self, name: &ast::Name) -> Option<PouId> {
-        match self.symbols.units.get(&name.key()) {
-            Some((Unit::Pou(id), _)) => Some(*id),
+        match self.unit(name) {
+            Some((Unit::Pou(id), _)) => Some(id),
             _ => None,
         }
     }

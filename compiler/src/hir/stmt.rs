@@ -235,6 +235,8 @@ impl Builder<'_> {
             self.error(Code::NotCallable, e.span, "not a call");
             return None;
         };
+        let full = self.qualified_callee(callee);
+        let callee = full.as_ref().unwrap_or(callee);
         if let Some(call) = self.body_call(callee, args, e.span) {
             return call;
         }

@@ -3,6 +3,7 @@
 use super::builder::Builder;
 use super::model::{self, *};
 use super::scope::Scope;
+use super::space::Spaces;
 use super::types::TypeUse;
 use crate::syntax::ast;
 use std::collections::{HashMap, HashSet};
@@ -40,7 +41,8 @@ pub(super) struct PouEntry<'a> {
 
 /// A declared global variable.
 pub(super) struct GlobalEntry<'a> {
-    pub decl: &'a ast::VarDecl,
+    /// `None`: made by the compiler.
+    pub decl: Option<&'a ast::VarDecl>,
     pub library: bool,
     pub state: State,
 }
@@ -63,6 +65,9 @@ pub(super) struct Symbols<'a> {
     /// Enumerator name to the types that declare it.
     pub enumerators: HashMap<String, Vec<usize>>,
     pub configurations: Vec<&'a ast::Configuration>,
+    pub spaces: Spaces,
+    /// Globals that several lists declare, which need the name of the list.
+    pub shared_globals: HashMap<String, GlobalId>,
 }
 
 /// Names of what is declared at file level.
@@ -90,6 +95,7 @@ impl<'a> Builder<'a> {
             files.flat_map(|(_, f)| &f.items).flat_map(item_names).collect()
         };
         let names = Names { user: names_in(false), library: names_in(true) };
+        self.collect_spaces(files);
         for (source, file) in files {
             let library = self.sources.get(*source).library;
             for item in &file.items {
@@ -112,9 +118,14 @@ impl<'a> Builder<'a> {
             ast::Item::Pou(_) => {}
             ast::Item::Globals(section) => {
                 let left_out = |name: &ast::Name, ty: &ast::TypeRef| replaced(name) || library && names.lacks(ty);
-                self.collect_globals(section, library, &left_out);
+                let list = self.list_name(section.span);
+                self.collect_globals(section, library, list.as_deref(), &left_out);
             }
             ast::Item::Configuration(c) => self.symbols.configurations.push(c),
+            ast::Item::Namespace(n) => {
+                self.deeper(n.span, |b| n.items.iter().for_each(|i| b.collect_item(i, source, library, names)));
+            }
+            ast::Item::Using(_) => {}
         }
     }
 
@@ -155,7 +166,7 @@ impl<'a> Builder<'a> {
         let id =
             self.symbols.pous.push(PouEntry { decl, library, state: State::Pending, reserved: None, scope: Scope::default() });
         self.hir.pous.push(Pou {
-            name: decl.name.text.clone(),
+            name: self.full_name(&decl.name).text,
             kind,
             owner: None,
             base: None,
@@ -174,7 +185,7 @@ impl<'a> Builder<'a> {
     }
 
     fn warn_replaced(&mut self, name: &ast::Name) {
-        if takt_stdlib::lookup(&name.text).is_some() {
+        if takt_stdlib::lookup(&self.full_name(name).text).is_some() {
             self.report(
                 Diag::new(Code::DuplicateName, name.span, "a standard function has this name")
                     .severity(Severity::Warning)
@@ -186,7 +197,8 @@ impl<'a> Builder<'a> {
 
     /// Enters a type or unit; false if the name is taken.
     fn unit_name(&mut self, name: &ast::Name, unit: Unit) -> bool {
-        let first = self.symbols.units.entry(name.key()).or_insert((unit, name.span)).1;
+        let full = self.full_name(name);
+        let first = self.symbols.units.entry(full.key()).or_insert((unit, name.span)).1;
         if first != name.span {
             self.report(Diag::new(Code::DuplicateName, name.span, "declared again").also(first, "first declared"));
         }
@@ -198,19 +210,21 @@ impl<'a> Builder<'a> {
         &mut self,
         section: &'a ast::VarSection,
         library: bool,
+        list: Option<&str>,
         left_out: &dyn Fn(&ast::Name, &ast::TypeRef) -> bool,
     ) {
         for decl in &section.decls {
             let anonymous = decl.names.is_empty().then(|| decl.at.as_ref().map(super::image::name_of)).flatten();
             for name in decl.names.iter().chain(anonymous.as_ref()).filter(|n| !left_out(n, &decl.ty)) {
-                self.collect_global(section, decl, name, library);
+                let id = self.collect_global(section, decl, name, library);
+                self.enter_global(id, name, list, section.qualified_only);
             }
         }
     }
 
-    fn collect_global(&mut self, section: &ast::VarSection, decl: &'a ast::VarDecl, name: &ast::Name, library: bool) {
+    fn collect_global(&mut self, section: &ast::VarSection, decl: &'a ast::VarDecl, name: &ast::Name, library: bool) -> GlobalId {
         let id = self.hir.globals.push(Global {
-            name: name.text.clone(),
+            name: self.full_name(name).text,
             ty: self.error,
             place: None,
             init: Const::Zero,
@@ -218,23 +232,19 @@ impl<'a> Builder<'a> {
             keep: Keep::of(section),
             span: name.span,
         });
-        self.symbols.global_entries.push(GlobalEntry { decl, library, state: State::Pending });
-        let first = *self.symbols.globals.entry(name.key()).or_insert(id);
-        if first != id {
-            let span = self.hir.globals[first].span;
-            self.report(Diag::new(Code::DuplicateName, name.span, "declared again").also(span, "first declared"));
-        }
+        self.symbols.global_entries.push(GlobalEntry { decl: Some(decl), library, state: State::Pending });
+        id
     }
 
     /// Globals of configurations and resources; those of a resource hide those of the configuration (§3.5).
     fn collect_configurations(&mut self) {
         for c in self.symbols.configurations.clone() {
             for section in &c.globals {
-                self.collect_globals(section, false, &|_, _| false);
+                self.collect_globals(section, false, None, &|_, _| false);
             }
             for section in c.resources.iter().flat_map(|r| &r.globals) {
                 self.hide_globals(section, c);
-                self.collect_globals(section, false, &|_, _| false);
+                self.collect_globals(section, false, None, &|_, _| false);
             }
         }
     }
@@ -257,6 +267,7 @@ fn item_names(item: &ast::Item) -> Vec<String> {
         ast::Item::Types(decls) => decls.iter().map(|d| d.name.key()).collect(),
         ast::Item::Pou(p) => vec![p.name.key()],
         ast::Item::Globals(s) => s.decls.iter().flat_map(|d| &d.names).map(ast::Name::key).collect(),
+        ast::Item::Namespace(_) | ast::Item::Using(_) => Vec::new(),
         ast::Item::Configuration(c) => {
             let sections = c.globals.iter().chain(c.resources.iter().flat_map(|r| &r.globals));
             sections.flat_map(|s| &s.decls).flat_map(|d| &d.names).map(ast::Name::key).collect()

@@ -97,6 +97,9 @@ impl Builder<'_> {
         if section.kind == SectionKind::Global {
             return;
         }
+        if section.kind == SectionKind::Stat {
+            return self.declare_static(id, pou, section, d);
+        }
         let outer = std::mem::replace(&mut self.objects.abstract_allowed, section.kind == SectionKind::InOut);
         let used = self.declared_var_type(pou, section, &d.ty);
         self.objects.abstract_allowed = outer;
@@ -166,10 +169,24 @@ impl Builder<'_> {
         }
     }
 
+    /// VAR_STAT (vendor): one variable for all calls and instances of the unit.
+    fn declare_static(&mut self, id: PouId, pou: &ast::Pou, section: &ast::VarSection, d: &ast::VarDecl) {
+        let used = self.type_ref(&d.ty);
+        self.check_decl(pou, section, d, used.ty);
+        let init = d.init.as_ref().map_or_else(|| used.default.clone(), |i| self.initial(i, &used));
+        for name in &d.names {
+            let full = format!("{}.{}", self.hir.pous[id].name, name.text);
+            let init = if self.charge(constant::leaves(&init) - 1, name.span) { init.clone() } else { Const::Zero };
+            let global = self.new_global(full, used.ty, init, name.span);
+            self.hir.globals[global].constant = section.constant;
+            self.declare_local(name, Local::External(global));
+        }
+    }
+
     /// VAR_EXTERNAL: a global of the same name and type, CONSTANT if that is (§3.5).
     fn declare_external(&mut self, section: &ast::VarSection, d: &ast::VarDecl, name: &ast::Name) {
         let used = self.type_ref(&d.ty);
-        let Some(&id) = self.symbols.globals.get(&name.key()) else {
+        let Some(id) = self.global_id(name) else {
             let known: Vec<String> = self.hir.globals.iter().map(|g| g.name.clone()).collect();
             self.unknown(Code::ExternalMismatch, name, known);
             self.declare_unmatched(name, used.ty);
@@ -230,7 +247,7 @@ impl Builder<'_> {
             let ty = if section == Section::InOut { self.hir.types.intern(Type::Reference { target }) } else { target };
             members.push(Member { name, ty, section, retain, init });
         }
-        let Some((record, default)) = self.record(decl.name.text.clone(), members, decl.name.span) else { return };
+        let Some((record, default)) = self.record(self.hir.pous[id].name.clone(), members, decl.name.span) else { return };
         let ty = self.reserved_instance(id);
         self.hir.types.replace(ty, Type::Instance(record));
         self.defaults.insert(ty, default);

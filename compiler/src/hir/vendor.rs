@@ -15,7 +15,7 @@ impl Builder<'_> {
     /// The type or unit of a name, where a type stands.
     pub fn named_unit(&self, name: &ast::Name) -> Option<Unit> {
         let key = name.key();
-        let found = self.symbols.units.get(&key).map(|(unit, _)| *unit);
+        let found = self.unit(name).map(|(unit, _)| unit);
         if found.is_some_and(|unit| !self.is_of_library(unit)) {
             return found;
         }

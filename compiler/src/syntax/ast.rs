@@ -44,6 +44,22 @@ pub enum Item {
     /// VAR_GLOBAL outside of a configuration (vendor form, and the form of generated declarations).
     Globals(VarSection),
     Configuration(Configuration),
+    Namespace(Namespace),
+    /// USING of a file or namespace.
+    Using(Vec<Name>),
+}
+
+/// NAMESPACE ... END_NAMESPACE.
+#[derive(Clone, Debug)]
+pub struct Namespace {
+    /// `a.b.c`.
+    pub name: Name,
+    /// INTERNAL.
+    pub internal: bool,
+    /// Behind the name.
+    pub usings: Vec<Name>,
+    pub items: Vec<Item>,
+    pub span: Span,
 }
 
 /// FUNCTION, FUNCTION_BLOCK, PROGRAM, CLASS, INTERFACE, or a METHOD of one of the last four.
@@ -90,6 +106,8 @@ pub struct Objects {
     pub extends: Vec<Name>,
     /// IMPLEMENTS.
     pub implements: Vec<Name>,
+    /// USING.
+    pub usings: Vec<Name>,
     /// Methods, and the GET and SET of properties, in order.
     pub methods: Vec<Pou>,
     /// GET or SET of a property, of which a method is made.
@@ -133,6 +151,8 @@ pub struct VarSection {
     pub access: Option<AccessSpec>,
     /// PERSISTENT (vendor): kept over a cold start too.
     pub persistent: bool,
+    /// `{attribute 'qualified_only'}` stands before it (vendor).
+    pub qualified_only: bool,
     /// Declarations in order.
     pub decls: Vec<VarDecl>,
     /// The opening keyword and its qualifiers.
@@ -143,6 +163,8 @@ pub struct VarSection {
 pub enum SectionKind {
     Var,
     Temp,
+    /// VAR_STAT (vendor).
+    Stat,
     Input,
     Output,
     InOut,

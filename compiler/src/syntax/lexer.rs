@@ -143,6 +143,8 @@ pub(crate) struct Tokens {
     pub(crate) list: Vec<Token>,
     /// Positions in `list` before which `{external}` stands, ascending.
     pub(crate) external: Vec<usize>,
+    /// The same for `{attribute 'qualified_only'}`.
+    pub(crate) qualified_only: Vec<usize>,
     /// Inline C of MATIEC: the position in `list` behind it, and its place; ascending.
     pub(crate) inline_c: Vec<(usize, Span)>,
     /// `{test ...}` pragmas: position in `list` of the token that follows, and text with its place, ascending.
@@ -165,6 +167,7 @@ pub(crate) fn lex(text: &str, source: SourceId, profile: Profile, report: &mut R
         report,
         nested,
         external: Vec::new(),
+        qualified_only: Vec::new(),
         inline_c: Vec::new(),
         tests: Vec::new(),
         conditional: Conditional::default(),
@@ -196,7 +199,14 @@ pub(crate) fn lex(text: &str, source: SourceId, profile: Profile, report: &mut R
     scan.close_conditional();
     let end = text.len() as u32;
     list.push(Token { kind: Tok::Eof, kw: Kw::None, start: end, end });
-    Tokens { list, external: scan.external, inline_c: scan.inline_c, tests: scan.tests, cut: scan.cut }
+    Tokens {
+        list,
+        external: scan.external,
+        qualified_only: scan.qualified_only,
+        inline_c: scan.inline_c,
+        tests: scan.tests,
+        cut: scan.cut,
+    }
 }
 
 /// The word that opens a graphical body in a CODESYS 2 export (language reference §17).
@@ -211,6 +221,7 @@ struct Scan<'t, 'r, 's> {
     nested: bool,
     report: &'r mut Report<'s>,
     external: Vec<usize>,
+    qualified_only: Vec<usize>,
     inline_c: Vec<(usize, Span)>,
     tests: Vec<(usize, String, Span)>,
     /// `{IF ..}` of CODESYS; not followed in other profiles.
@@ -386,6 +397,8 @@ impl Scan<'_, '_, '_> {
             self.external.push(before);
         } else if super::test_pragma::is_test(text) {
             self.tests.push((before, text.to_owned(), Span { start: opener.start, ..self.span() }));
+        } else if text.split_once(char::is_whitespace).is_some_and(|(a, b)| a == "attribute" && b.trim() == "'qualified_only'") {
+            self.qualified_only.push(before);
         } else if self.profile.is_codesys()
             && let Some(followed) = self.conditional.follow(text)
         {

@@ -24,6 +24,8 @@ use takt_image::TypeId;
 impl Builder<'_> {
     /// A call whose value is used.
     pub fn call(&mut self, callee: &ast::Expr, args: &[ast::Arg], span: Span, want: Option<TypeId>) -> Operand {
+        let full = self.qualified_callee(callee);
+        let callee = full.as_ref().unwrap_or(callee);
         let o = match self.method_call(callee, args, span) {
             Some(o) => o,
             None => self.call_any(callee, args, span, want),
@@ -62,7 +64,10 @@ impl Builder<'_> {
             return self.bad_call(args, span);
         }
         match self.pou(name) {
-            Some(id) => self.call_with_enable(id, args, span),
+            Some(id) => {
+                self.check_unit_use(name);
+                self.call_with_enable(id, args, span)
+            }
             None => match takt_stdlib::lookup(&name.text) {
                 Some(found) => match self.enable(args, enable::Declared::default()) {
                     None => self.call_standard(found, name, args, span, want),
@@ -96,8 +101,8 @@ impl Builder<'_> {
             (Some(_), _) => false,
             (None, _) => true,
         };
-        let known = match self.symbols.units.get(&name.key()) {
-            Some((Unit::Pou(id), _)) => self.hir.pous[*id].kind == PouKind::Function,
+        let known = match self.unit(name) {
+            Some((Unit::Pou(id), _)) => self.hir.pous[id].kind == PouKind::Function,
             Some((Unit::Type(_), _)) => false,
             None => takt_stdlib::lookup(&name.text).is_some(),
         };
@@ -105,12 +110,12 @@ impl Builder<'_> {
     }
 
     fn not_a_function(&mut self, name: &ast::Name) {
-        let what = match (self.local(&name.key()), self.symbols.units.get(&name.key())) {
+        let what = match (self.local(&name.key()), self.unit(name)) {
             (Some(_), _) => "a variable",
-            (None, Some((Unit::Pou(id), _))) if self.hir.pous[*id].kind == PouKind::FunctionBlock => "a function block",
+            (None, Some((Unit::Pou(id), _))) if self.hir.pous[id].kind == PouKind::FunctionBlock => "a function block",
             (None, Some((Unit::Pou(_), _))) => "a program",
             (None, Some((Unit::Type(_), _))) => "a type",
-            (None, None) if self.symbols.globals.contains_key(&name.key()) => "a variable",
+            (None, None) if self.global_id(name).is_some() => "a variable",
             (None, None) => {
                 let functions = self.hir.pous.iter().filter(|p| p.kind == PouKind::Function).map(|p| p.name.clone());
                 let standard = takt_stdlib::catalog::functions().map(|f| f.name.to_owned());

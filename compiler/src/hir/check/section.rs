@@ -20,7 +20,8 @@ impl Builder<'_> {
             let help = "RETAIN belongs to VAR, VAR_INPUT and VAR_OUTPUT of function blocks and programs, and to VAR_GLOBAL";
             self.report(Diag::new(Code::SectionNotAllowed, section.span, "nothing here is kept between calls").help(help));
         }
-        if section.constant && matches!(section.kind, SectionKind::InOut | SectionKind::Output) {
+        let output = section.kind == SectionKind::Output && !self.profile(section.span).is_codesys();
+        if section.constant && (section.kind == SectionKind::InOut || output) {
             self.error(Code::SectionNotAllowed, section.span, "outputs and in-outs can't be CONSTANT");
         }
     }

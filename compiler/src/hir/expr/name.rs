@@ -36,7 +36,7 @@ impl Builder<'_> {
         if let Some(o) = want.and_then(|ty| self.value_of(ty, n, n.span)) {
             return Some(o);
         }
-        let declared = self.symbols.enumerators.get(&n.key()).cloned().unwrap_or_default();
+        let declared = self.visible_enums(n);
         let mut types: Vec<TypeId> = declared.into_iter().map(|index| self.declared_type(index, n.span).ty).collect();
         types.extend(self.scope.enums.iter().chain(&self.global_enums));
         let mut found: Vec<Operand> = types.into_iter().filter_map(|ty| self.value_of(ty, n, n.span)).collect();
@@ -45,6 +45,12 @@ impl Builder<'_> {
             1 => found.pop(),
             _ => Some(self.ambiguous(n, &found)),
         }
+    }
+
+    /// The declared enumerations of which `n` may be a value here.
+    fn visible_enums(&self, n: &ast::Name) -> Vec<usize> {
+        let all = self.symbols.enumerators.get(&n.key()).into_iter().flatten();
+        all.copied().filter(|index| self.is_visible(*index, n.span)).collect()
     }
 
     fn ambiguous(&mut self, n: &ast::Name, found: &[Operand]) -> Operand {
@@ -81,10 +87,13 @@ impl Builder<'_> {
 
     /// `Light.Red` (vendor form), if `Light` is a type and no variable.
     pub(super) fn enum_member(&mut self, base: &ast::Expr, value: &ast::Name, span: Span) -> Option<Operand> {
-        let ast::ExprKind::Name(n) = &base.kind else { return None };
-        let key = n.key();
-        let variable = self.local(&key).is_some() || self.symbols.globals.contains_key(&key);
-        let is_type = matches!(self.symbols.units.get(&key), Some((Unit::Type(_), _)));
+        let full = self.qualified(base);
+        let n = match &base.kind {
+            ast::ExprKind::Name(n) => n,
+            _ => full.as_ref()?,
+        };
+        let variable = self.local(&n.key()).is_some() || self.global_id(n).is_some();
+        let is_type = matches!(self.unit(n), Some((Unit::Type(_), _)));
         (is_type && !variable).then(|| self.enumerator(n, value, span))
     }
 }

@@ -57,10 +57,11 @@ impl Builder<'_> {
 
     /// The unit of this name, if it is of one of the kinds.
     fn named_base(&mut self, name: &ast::Name, kinds: &[PouKind], verb: &str) -> Option<PouId> {
-        let what = match self.symbols.units.get(&name.key()) {
-            Some(&(Unit::Pou(base), _)) if kinds.contains(&self.hir.pous[base].kind) => return Some(base),
+        self.check_unit_use(name);
+        let what = match self.unit(name) {
+            Some((Unit::Pou(base), _)) if kinds.contains(&self.hir.pous[base].kind) => return Some(base),
             Some((Unit::Type(_), _)) => "a data type",
-            Some(&(Unit::Pou(base), _)) => match self.hir.pous[base].kind {
+            Some((Unit::Pou(base), _)) => match self.hir.pous[base].kind {
                 PouKind::Function | PouKind::Method => "a function",
                 PouKind::FunctionBlock => "a function block",
                 PouKind::Program => "a program",

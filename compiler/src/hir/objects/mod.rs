@@ -92,8 +92,8 @@ impl<'a> Builder<'a> {
             let mut next = Some(id);
             while let Some(id) = next.filter(|id| self.objects.numbered.insert(*id)) {
                 let extends = self.symbols.pous[id].decl.objects.extends.first();
-                next = extends.and_then(|n| match self.symbols.units.get(&n.key()) {
-                    Some((Unit::Pou(base), _)) => Some(*base),
+                next = extends.and_then(|n| match self.unit(n) {
+                    Some((Unit::Pou(base), _)) => Some(base),
                     _ => None,
                 });
             }

@@ -53,7 +53,7 @@ impl Builder<'_> {
                 None if n.is("THIS") => self.hir.pous[self.own_type()?].instance,
                 None if n.is("SUPER") => self.hir.pous[self.hir.pous[self.own_type()?].base?].instance,
                 None if self.is_own_property(n) => self.getter_type(self.own_type()?, n),
-                None => self.symbols.globals.get(&n.key()).map(|g| self.hir.globals[*g].ty),
+                None => self.global_id(n).map(|g| self.hir.globals[g].ty),
             },
             E::Member(base, n) => {
                 let ty = self.static_type(base)?;

@@ -64,7 +64,7 @@ impl Builder<'_> {
     /// All values of an enumeration whose name stands for the bounds (vendor).
     fn enum_range(&mut self, low: &ast::Expr, high: &ast::Expr) -> Option<Dim> {
         let ast::ExprKind::Name(n) = &low.kind else { return None };
-        let known = matches!(self.symbols.units.get(&n.key()), Some((Unit::Type(_), _)));
+        let known = matches!(self.unit(n), Some((Unit::Type(_), _)));
         if low.span != high.span || !known {
             return None;
         }

@@ -69,10 +69,11 @@ impl Builder<'_> {
             let ty = self.elem(e);
             return self.plain(ty);
         }
-        if name.is("BIT") && !self.symbols.units.contains_key(&name.key()) && self.profile(name.span).is_codesys() {
+        if name.is("BIT") && self.unit(name).is_none() && self.profile(name.span).is_codesys() {
             let ty = self.bool();
             return self.plain(ty);
         }
+        self.check_unit_use(name);
         match self.named_unit(name) {
             Some(Unit::Type(index)) => self.declared_type(index, name.span),
             Some(Unit::Pou(id)) => self.instance_type(id, name.span),
@@ -91,7 +92,9 @@ impl Builder<'_> {
             return self.interface_type(id, at);
         }
         let tested = pou.kind == PouKind::Program && self.in_test();
-        if !tested && !matches!(pou.kind, PouKind::FunctionBlock | PouKind::Class) {
+        let program = pou.kind == PouKind::Program && self.profile(at).is_vendor();
+        self.hir.programs_are_instances |= program;
+        if !tested && !program && !matches!(pou.kind, PouKind::FunctionBlock | PouKind::Class) {
             let what = if pou.kind == PouKind::Program { "a PROGRAM" } else { "a FUNCTION" };
             let help = "only function blocks have instances; programs are listed in the CONFIGURATION";
             self.report(Diag::new(Code::UnknownType, at, what).message("this is not a type").help(help));
@@ -130,7 +133,7 @@ impl Builder<'_> {
     }
 
     fn type_body(&mut self, index: usize, decl: &ast::TypeDecl) -> TypeUse {
-        let name = &decl.name.text;
+        let name = &self.full_name(&decl.name).text;
         let body = match &decl.body {
             ast::TypeBody::Ref(ast::TypeRef { kind: ast::TypeRefKind::Subrange { base, low, high }, span }) => {
                 self.subrange(Some(name), base, low, high, *span)

@@ -70,7 +70,7 @@ impl Data {
             }
         }
         let programs = hir.tasks.iter().zip(&self.instances).flat_map(|(t, offsets)| t.programs.iter().zip(offsets));
-        for (program, offset) in programs {
+        for (program, offset) in programs.filter(|(p, _)| p.global.is_none()) {
             let pou = &hir.pous[program.pou];
             let Some(ty) = pou.instance else { continue };
             if let Some(init) = &program.init {
@@ -108,6 +108,9 @@ impl Data {
 
     fn instance(&mut self, hir: &Hir, program: &ProgramInstance) -> Result<u32, Diag> {
         let pou = &hir.pous[program.pou];
+        if let Some(ImagePlace::Byte(offset)) = program.global.and_then(|g| self.globals.get(g)) {
+            return Ok(*offset);
+        }
         let Some(ty) = pou.instance else { return Ok(self.start) };
         self.reserve(hir, ty, pou.end, &program.name)
     }
@@ -195,7 +198,8 @@ pub fn symbols(hir: &Hir, data: &Data) -> Vec<Symbol> {
 fn program_symbols(hir: &Hir, program: &ProgramInstance, offset: u32) -> Vec<Symbol> {
     let pou = &hir.pous[program.pou];
     let symbol = |name: String, ty, place| Symbol { name, ty, place, constant: false, retain: false };
-    let itself = pou.instance.map(|ty| symbol(program.name.clone(), ty, ImagePlace::Byte(offset)));
+    let itself =
+        pou.instance.filter(|_| program.global.is_none()).map(|ty| symbol(program.name.clone(), ty, ImagePlace::Byte(offset)));
     let located = pou.vars.iter().filter(|v| v.role != Role::Hidden).filter_map(|v| match v.storage {
         Storage::Image(place) => Some(symbol(format!("{}.{}", program.name, v.name), v.ty, place)),
         _ => None,

@@ -25,7 +25,7 @@ pub fn retained(hir: &Hir, data: &Data) -> Result<Vec<Retained>, Diag> {
     for (p, offset) in programs {
         let (pou, root) = (&hir.pous[p.pou], p.root());
         let at = At { root: &root, start: *offset, span: pou.end };
-        if let Some(ty) = pou.instance {
+        if let Some(ty) = pou.instance.filter(|_| p.global.is_none()) {
             walk.part(&at, p.name.clone(), ty, *offset, p.keep)?;
         }
         for v in pou.vars.iter() {

@@ -146,7 +146,7 @@ impl<'p, 'h> Unit<'p, 'h> {
         let this = self.param(Scalar::I32);
         let size = pou.instance.map_or(0, |ty| self.hir.types.layout(ty).size);
         self.f.regions.set(this, Region { object: Object::Instance, low: 0, high: size as u64, exact: true });
-        if pou.kind == PouKind::Program {
+        if pou.kind == PouKind::Program && !self.hir.programs_are_instances {
             self.f.regions.named_instances = 0..0;
         }
         (self.this, self.this_type) = (Some(at(this)), pou.instance);

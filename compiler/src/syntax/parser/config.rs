@@ -135,6 +135,7 @@ impl Parser<'_> {
             return None;
         }
         let ty = self.declared_name("the name of a PROGRAM")?;
+        let ty = self.qualified(ty);
         let connections = if self.at(Tok::LParen) { self.program_connections() } else { Vec::new() };
         Some(ProgramDecl { name, retain, task, ty, connections })
     }

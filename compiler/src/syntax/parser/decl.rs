@@ -23,7 +23,7 @@ impl Parser<'_> {
         File { items }
     }
 
-    fn item(&mut self) -> Option<Item> {
+    pub(super) fn item(&mut self) -> Option<Item> {
         self.found_place();
         self.unwinding = false;
         self.open.clear();
@@ -45,6 +45,8 @@ impl Parser<'_> {
             Kw::Interface => Some(Item::Pou(self.pou(PouKind::Interface, Kw::EndInterface))),
             Kw::VarGlobal => self.var_section().map(Item::Globals),
             Kw::Configuration => Some(Item::Configuration(self.configuration())),
+            Kw::Namespace => self.namespace(),
+            Kw::Using => Some(Item::Using(self.using())),
             _ => {
                 self.no_item();
                 None
@@ -57,9 +59,9 @@ impl Parser<'_> {
             return;
         }
         let diag = self.expected_diag("a declaration");
-        self.error(
-            diag.help("a file holds PROGRAM, FUNCTION_BLOCK, FUNCTION, CLASS, INTERFACE, TYPE, VAR_GLOBAL and CONFIGURATION"),
-        );
+        self.error(diag.help(
+            "a file holds PROGRAM, FUNCTION_BLOCK, FUNCTION, CLASS, INTERFACE, TYPE, NAMESPACE, VAR_GLOBAL and CONFIGURATION",
+        ));
         self.bump();
         self.skip_to_item();
     }

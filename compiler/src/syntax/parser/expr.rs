@@ -20,7 +20,7 @@ pub(super) struct Tree {
 }
 
 impl Tree {
-    fn leaf(expr: Expr) -> Self {
+    pub(super) fn leaf(expr: Expr) -> Self {
         Self { expr, height: 1 }
     }
     fn error(span: Span) -> Self {
@@ -242,6 +242,7 @@ impl Parser<'_> {
                 }
             }
             Tok::Direct => self.part(base.expr, token),
+            Tok::TypePrefix => self.qualified_value(&base.expr),
             _ => {
                 self.expected("the name of a member, or the number of a bit, behind the point");
                 return Tree::error(start);
@@ -305,6 +306,7 @@ impl Parser<'_> {
             Tok::Word => self.word(),
             Tok::LParen => self.parenthesised(),
             Tok::Direct => Tree::leaf(self.direct()),
+            Tok::Dot if self.nth(1).kind == Tok::Word => self.global_name(),
             Tok::Error => {
                 self.lost = true; // reported by the lexer
                 self.bump();

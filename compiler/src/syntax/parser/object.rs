@@ -38,7 +38,7 @@ impl Parser<'_> {
         }
     }
 
-    /// EXTENDS and IMPLEMENTS with their names; USING is not in this version.
+    /// EXTENDS, IMPLEMENTS and USING with their names.
     pub(super) fn heritage(&mut self, objects: &mut Objects) {
         loop {
             match self.kw() {
@@ -50,29 +50,19 @@ impl Parser<'_> {
                     self.bump();
                     self.type_names(&mut objects.implements);
                 }
-                Kw::Using => {
-                    self.unsupported_here("USING");
-                    self.bump();
-                    self.type_names(&mut Vec::new());
-                    self.eat(Tok::Semi);
-                }
+                Kw::Using => objects.usings.append(&mut self.using()),
                 _ => return,
             }
         }
     }
 
-    fn type_names(&mut self, list: &mut Vec<Name>) {
+    pub(super) fn type_names(&mut self, list: &mut Vec<Name>) {
         loop {
             if !self.at(Tok::Word) || self.kw().is_reserved() {
                 return self.expected("the name of a type");
             }
-            let mut name = self.name();
-            while self.at(Tok::Dot) && self.nth(1).kind == Tok::Word {
-                self.bump();
-                let part = self.name();
-                name = Name { text: format!("{}.{}", name.text, part.text), span: name.span.to(part.span) };
-            }
-            list.push(name);
+            let name = self.name();
+            list.push(self.qualified(name));
             if !self.eat(Tok::Comma) {
                 return;
             }
@@ -222,7 +212,16 @@ impl Parser<'_> {
             let kind = SectionKind::Input;
             sections.insert(
                 0,
-                VarSection { kind, constant: false, retain: None, access: None, persistent: false, decls: vec![decl], span },
+                VarSection {
+                    kind,
+                    constant: false,
+                    retain: None,
+                    access: None,
+                    persistent: false,
+                    qualified_only: false,
+                    decls: vec![decl],
+                    span,
+                },
             );
         }
         let objects = Objects { modifiers, accessor: Some(accessor), ..Objects::default() };

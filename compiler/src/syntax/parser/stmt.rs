@@ -157,7 +157,8 @@ impl Parser<'_> {
     }
 
     fn assign_or_call(&mut self) -> StmtKind {
-        if !self.at(Tok::Word) && !self.at(Tok::Direct) {
+        let global = self.at(Tok::Dot) && self.nth(1).kind == Tok::Word;
+        if !self.at(Tok::Word) && !self.at(Tok::Direct) && !global {
             self.no_statement();
             return StmtKind::Error;
         }

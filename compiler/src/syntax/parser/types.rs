@@ -162,24 +162,17 @@ impl Parser<'_> {
     fn named(&mut self) -> TypeRefKind {
         let token = self.bump();
         let name = Name { text: self.text_of(token).to_owned(), span: self.span_of(token) };
-        if self.at(Tok::Dot) {
-            self.unsupported_here("a name in a namespace");
-            while self.eat(Tok::Dot) && self.at(Tok::Word) {
-                self.bump();
-            }
-            return TypeRefKind::Error;
-        }
+        let name = self.qualified(name);
         if !self.at(Tok::LParen) {
             return TypeRefKind::Named(name);
+        }
+        if self.nth(1).kind == Tok::RParen && !token.kw.is_type() {
+            return TypeRefKind::Named(name); // arguments of an instance
         }
         let is_list = self.nth(1).kind == Tok::Word && matches!(self.nth(2).kind, Tok::Assign | Tok::Comma | Tok::RParen);
         match is_list {
             true if token.kw.is_type() => self.enumeration(Some(name)),
-            true => {
-                self.unsupported_here("initialising an instance with arguments");
-                self.connections();
-                TypeRefKind::Error
-            }
+            true => TypeRefKind::Named(name), // arguments of an instance
             false => self.subrange(name),
         }
     }

@@ -7,12 +7,7 @@ use takt_base::Profile;
 use takt_base::diag::{Code, Diag};
 
 /// Declarations by opening and closing keyword.
-const CONSTRUCTS: [(Kw, Kw); 4] = [
-    (Kw::Namespace, Kw::EndNamespace),
-    (Kw::Action, Kw::EndAction),
-    (Kw::Actions, Kw::EndActions),
-    (Kw::Resource, Kw::EndResource),
-];
+const CONSTRUCTS: [(Kw, Kw); 3] = [(Kw::Action, Kw::EndAction), (Kw::Actions, Kw::EndActions), (Kw::Resource, Kw::EndResource)];
 
 impl Parser<'_> {
     pub(super) fn unsupported_diag(&self, what: &str) -> Diag {
@@ -28,11 +23,6 @@ impl Parser<'_> {
 
     /// A construct of a file; false if none stands here.
     pub(super) fn unsupported_item(&mut self) -> bool {
-        if self.kw() == Kw::Using {
-            self.unsupported_here("USING");
-            self.skip_declaration();
-            return true;
-        }
         if matches!(self.kw(), Kw::VarAccess | Kw::VarConfig) {
             self.var_section();
             return true;

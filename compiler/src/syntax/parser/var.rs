@@ -4,7 +4,7 @@
 use super::cursor::Parser;
 use super::literal::problem_diag;
 use crate::syntax::ast::{
-    Address, AddressSize, Edge, Name, RelativeAddress, SectionKind, TypeRef, TypeRefKind, VarDecl, VarSection,
+    Address, AddressSize, Edge, Init, Name, RelativeAddress, SectionKind, TypeRef, TypeRefKind, VarDecl, VarSection,
 };
 use crate::syntax::keyword::Kw;
 use crate::syntax::lexer::Tok;
@@ -20,6 +20,7 @@ fn section_kind(kw: Kw) -> Option<SectionKind> {
         Kw::VarOutput => SectionKind::Output,
         Kw::VarInOut => SectionKind::InOut,
         Kw::VarTemp => SectionKind::Temp,
+        Kw::VarStat => SectionKind::Stat,
         Kw::VarExternal => SectionKind::External,
         Kw::VarGlobal => SectionKind::Global,
         _ => return None,
@@ -42,9 +43,21 @@ impl Parser<'_> {
             self.skip_construct(kw, Kw::EndVar);
             return None;
         };
+        if kind == SectionKind::Stat {
+            self.codesys_form("VAR_STAT");
+        }
+        let qualified_only = self.tokens.qualified_only.binary_search(&self.pos).is_ok();
         self.bump();
-        let mut section =
-            VarSection { kind, constant: false, retain: None, access: None, persistent: false, decls: Vec::new(), span: start };
+        let mut section = VarSection {
+            kind,
+            constant: false,
+            retain: None,
+            access: None,
+            persistent: false,
+            qualified_only,
+            decls: Vec::new(),
+            span: start,
+        };
         self.qualifiers(&mut section);
         section.span = self.since(start);
         self.decls(&mut section, start, kw);
@@ -137,11 +150,20 @@ impl Parser<'_> {
         }
         let ty = self.type_ref();
         let edge = self.edge();
-        let init = self.optional_init();
+        let init = self.instance_arguments(&ty).or_else(|| self.optional_init());
         if matches!(ty, TypeRef { kind: TypeRefKind::Error, .. }) && names.is_empty() {
             return None;
         }
         Some(VarDecl { names, at, relative, ty, edge, init, span: self.since(start) })
+    }
+
+    /// `(a := 1)` behind a type (vendor): initial values of the inputs of an instance.
+    fn instance_arguments(&mut self, ty: &TypeRef) -> Option<Init> {
+        if !self.at(Tok::LParen) || !matches!(ty.kind, TypeRefKind::Named(_)) {
+            return None;
+        }
+        self.codesys_form("an instance with arguments");
+        Some(self.init())
     }
 
     fn names(&mut self) -> Option<Vec<Name>> {

@@ -17,12 +17,23 @@ fn optional<T>(item: &Option<T>, print: impl Fn(&T) -> String) -> String {
 }
 
 pub(super) fn file(file: &File) -> String {
-    all(&file.items, |item| match item {
+    all(&file.items, item)
+}
+
+fn item(item: &Item) -> String {
+    match item {
         Item::Types(list) => all(list, type_decl),
         Item::Pou(p) => pou(p),
         Item::Globals(s) => section(s),
         Item::Configuration(c) => configuration(c),
-    })
+        Item::Namespace(n) => {
+            let usings: String = n.usings.iter().map(|u| format!(" (using {})", u.text)).collect();
+            let internal = if n.internal { " internal" } else { "" };
+            let items = n.items.iter().map(|i| " ".to_owned() + &self::item(i));
+            format!("(namespace{internal} {}{usings}{})", n.name.text, items.collect::<String>())
+        }
+        Item::Using(names) => all(names, |n| format!("(using {})", n.text)),
+    }
 }
 
 fn pou(pou: &Pou) -> String {

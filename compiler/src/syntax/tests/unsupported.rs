@@ -13,23 +13,10 @@ fn lacks(what: &str, text: &str) {
 }
 
 #[test]
-fn namespaces() {
-    lacks(
-        "NAMESPACE",
-        "NAMESPACE a.b NAMESPACE c PROGRAM p END_PROGRAM END_NAMESPACE FUNCTION f : INT END_FUNCTION END_NAMESPACE",
-    );
-    lacks("USING", "USING a.b, c;");
-    lacks("USING", "FUNCTION f : INT USING a.b; f := 1; END_FUNCTION");
-    lacks("namespace", "PROGRAM p VAR x : a.b.C; END_VAR END_PROGRAM");
-}
-
-#[test]
 fn sections_and_types() {
     lacks("VAR_ACCESS", "PROGRAM p VAR_ACCESS a : x : BOOL READ_ONLY; END_VAR END_PROGRAM");
-    lacks("VAR_STAT", "FUNCTION f : INT VAR_STAT x : INT; END_VAR END_FUNCTION");
     lacks("VAR_INST", "FUNCTION_BLOCK f VAR_INST x : INT; END_VAR END_FUNCTION_BLOCK");
     lacks("variable length", "FUNCTION f : INT VAR_IN_OUT a : STRING[*]; END_VAR END_FUNCTION");
-    lacks("arguments", "PROGRAM p VAR x : fb(a := 1, b := 2); END_VAR END_PROGRAM");
     lacks("task of its own", "CONFIGURATION c TASK t(PRIORITY := 1); PROGRAM p : m(fb WITH t); END_CONFIGURATION");
 }
 
