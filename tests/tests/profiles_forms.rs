@@ -121,3 +121,17 @@ fn s12_codesys_pins_of_strings_null_as_zero_and_new_type_names_as_members() {
           c.LTOD := TOD#10:00:00; END_PROGRAM";
     after(Profile::Codesys, text, 1, &[("n", "211"), ("k", "7"), ("s", "'cd'"), ("c.LTOD", "TOD#10:00:00")]);
 }
+
+/// What can't be called does not hide the function of its name.
+#[test]
+fn s3_10_a_number_and_a_function_may_share_a_name() {
+    let text = "FUNCTION scale : INT VAR_INPUT x : INT; END_VAR scale := 2 * x; END_FUNCTION
+        PROGRAM main VAR limit : INT := 3; scale : INT := 4; n : INT; END_VAR
+          n := LIMIT(0, scale(limit), scale) + limit; END_PROGRAM";
+    for profile in Profile::ALL {
+        after(profile, text, 1, &[("n", "7")]);
+    }
+    let text = "FUNCTION_BLOCK abs END_FUNCTION_BLOCK PROGRAM main VAR limit : TON; sel : INT; n : INT; END_VAR
+        n := LIMIT(0, 1, 2); sel := nothing(1); END_PROGRAM";
+    assert_eq!(errors(Profile::Std, text), [Code::NotCallable, Code::UnknownName]);
+}

@@ -24,7 +24,7 @@ impl Builder<'_> {
     /// True if a call of this name is one of a variable: an instance, or a mistake.
     pub fn names_variable(&self, name: &ast::Name) -> bool {
         match (self.local(&name.key()), self.scope.pou) {
-            (Some(Local::Var(v)), Some(p)) => self.hir.pous[p].result != Some(v),
+            (Some(Local::Var(v)), Some(p)) => self.hir.pous[p].result != Some(v) && !self.calls_function_beside(name, p, v),
             (Some(_), _) => true,
             (None, _) if self.is_this(name) => true,
             (None, _) => {
