@@ -157,12 +157,17 @@ impl Elementary {
     /// True if a value of `self` may stand where `to` is wanted, without a conversion call (edition 3, figure 12): always
     /// value-preserving.
     pub fn widens_to(self, to: Elementary) -> bool {
-        self == to || WIDENINGS.iter().any(|&(from, next)| from == self && next.widens_to(to))
+        WIDER[self as usize] & to.bit() != 0
     }
     /// The smallest type that both widen to. Where there is no smallest (INT and UINT fit DINT and REAL) an integer is preferred.
     pub fn common(self, other: Elementary) -> Option<Elementary> {
-        let both: Vec<_> = Elementary::ALL.iter().copied().filter(|&t| self.widens_to(t) && other.widens_to(t)).collect();
-        both.iter().copied().find(|t| both.iter().all(|&u| t.widens_to(u))).or(both.first().copied())
+        let both = WIDER[self as usize] & WIDER[other as usize];
+        let mut all = Elementary::ALL.iter().copied().filter(|t| both & t.bit() != 0);
+        let first = all.next()?;
+        Some(std::iter::once(first).chain(all).find(|&t| WIDER[t as usize] & both == both).unwrap_or(first))
+    }
+    const fn bit(self) -> u32 {
+        1 << self as u32
     }
 }
 
@@ -191,6 +196,30 @@ const WIDENINGS: &[(Elementary, Elementary)] = &[
     (E::Tod, E::Ltod),
     (E::Dt, E::Ldt),
 ];
+
+/// For each type the set of those that it widens to, itself included.
+const WIDER: [u32; Elementary::ALL.len()] = wider();
+
+const fn wider() -> [u32; Elementary::ALL.len()] {
+    let mut sets = [0; Elementary::ALL.len()];
+    let mut i = 0;
+    while i < sets.len() {
+        sets[i] = 1 << i;
+        i += 1;
+    }
+    // Each round adds the sets of the next types; a path has no more steps than there are types.
+    let mut round = 0;
+    while round < sets.len() {
+        let mut step = 0;
+        while step < WIDENINGS.len() {
+            let (from, to) = WIDENINGS[step];
+            sets[from as usize] |= sets[to as usize];
+            step += 1;
+        }
+        round += 1;
+    }
+    sets
+}
 
 #[cfg(test)]
 mod tests {

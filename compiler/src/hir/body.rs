@@ -3,12 +3,27 @@
 use super::builder::Builder;
 use super::model::PouId;
 use crate::syntax::ast::{self, ExprKind, StmtKind};
+use std::collections::HashSet;
 
 impl Builder<'_> {
     /// Types all bodies.
     pub fn bodies(&mut self) {
-        for id in self.hir.pous.indices() {
-            self.body(id);
+        self.own_units().into_iter().for_each(|id| self.body(id));
+        self.library_bodies();
+    }
+
+    /// Of a library those bodies that are called, directly or by one another.
+    fn library_bodies(&mut self) {
+        let mut done = HashSet::new();
+        let (mut calls, mut dynamic) = (0, 0);
+        loop {
+            let new = self.calls[calls..].iter().chain(&self.objects.dynamic_calls[dynamic..]).map(|(_, to, _)| *to);
+            let new: Vec<PouId> = new.filter(|to| self.symbols.pous[*to].library && done.insert(*to)).collect();
+            (calls, dynamic) = (self.calls.len(), self.objects.dynamic_calls.len());
+            if new.is_empty() {
+                return;
+            }
+            new.into_iter().for_each(|id| self.body(id));
         }
     }
 

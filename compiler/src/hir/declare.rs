@@ -20,10 +20,16 @@ impl Builder<'_> {
         for id in self.hir.globals.indices() {
             self.ensure_global(id);
         }
-        for id in self.hir.pous.indices() {
+        // Units of a library are declared when somebody uses them.
+        for id in self.own_units() {
             let span = self.symbols.pous[id].decl.name.span;
             self.ensure_pou(id, span);
         }
+    }
+
+    /// The units that are not of a library.
+    pub(super) fn own_units(&self) -> Vec<PouId> {
+        self.hir.pous.indices().filter(|id| !self.symbols.pous[*id].library).collect()
     }
 
     /// Resolves a global; false if it is being resolved, so that it depends on itself.

@@ -141,7 +141,7 @@ impl<'a> Builder<'a> {
 
     /// The unit of an instance type.
     pub fn unit_of(&self, ty: TypeId) -> Option<PouId> {
-        self.hir.pous.enumerate().find(|(_, p)| p.instance == Some(ty)).map(|(id, _)| id)
+        self.objects.types.get(&ty).copied().filter(|id| self.hir.pous[*id].instance == Some(ty))
     }
 
     fn variable_of(&mut self, found: Found, name: &ast::Name) -> Option<Found> {

@@ -49,8 +49,8 @@ impl Builder<'_> {
         if !self.profile(name.span).is_vendor() {
             return None;
         }
-        let (id, pou) = self.hir.pous.enumerate().find(|(_, p)| p.instance == Some(block))?;
-        vendor::pin(&pou.name, &name.key()).filter(|_| self.is_standard(id))
+        let id = self.unit_of(block)?;
+        vendor::pin(&self.hir.pous[id].name, &name.key()).filter(|_| self.is_standard(id))
     }
 
     /// The timers take LTIME for TIME too: both are the same number of nanoseconds.
