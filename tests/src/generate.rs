@@ -7,6 +7,7 @@
 mod expr;
 mod literal;
 mod numbers;
+mod object;
 mod place;
 mod statement;
 mod text;
@@ -39,6 +40,8 @@ const SCALARS: &[E] = &[
     E::Dt,
     E::Ltime,
     E::Ltod,
+    E::Ldate,
+    E::Ldt,
     E::Char,
     E::Wchar,
 ];
@@ -74,12 +77,14 @@ pub fn program(seed: u64, shape: Shape) -> String {
         calls: true,
     };
     g.types();
+    g.object_types();
     g.globals();
     for i in 0..shape.units {
         g.function(i);
     }
     for i in 0..shape.units {
         g.block(i);
+        g.derived_block(i);
     }
     g.main(shape);
     g.out

@@ -17,7 +17,7 @@ impl Generator {
     }
 
     fn statement(&mut self, depth: usize) {
-        match self.random.below(if depth == 0 { 4 } else { 18 }) {
+        match self.random.below(if depth == 0 { 4 } else { 21 }) {
             0..=3 => self.assign(),
             4 => self.if_statement(depth),
             5 => self.case_statement(depth),
@@ -37,11 +37,13 @@ impl Generator {
             }
             15 => self.split(),
             16 => self.mode_case(depth),
+            17 => self.object_statement(),
+            18 => self.guarded_standard(),
             _ => self.assign(),
         }
     }
 
-    fn assign(&mut self) {
+    pub(super) fn assign(&mut self) {
         let place = self.writable();
         let target = self.subscripts(&place.text, 1);
         let value = self.value_for(&place, 3);
@@ -210,7 +212,8 @@ impl Generator {
             Some(args) if !targets.is_empty() => {
                 let target = targets[self.random.below(targets.len())].text.clone();
                 let target = self.subscripts(&target, 1);
-                self.line(format!("{target} := {}({args});", callee.name));
+                let enable = self.enable();
+                self.line(format!("{target} := {}({enable}{args});", callee.name));
             }
             _ => self.assign(),
         }
@@ -230,7 +233,8 @@ impl Generator {
                 args += &format!("{comma}{edge} := {}", self.expr(BOOL, 2));
             }
         }
-        self.line(format!("{instance}({args});"));
+        let enable = if args.is_empty() { String::new() } else { self.enable() };
+        self.line(format!("{instance}({enable}{args});"));
     }
 
     fn call_standard(&mut self, instance: &str, kind: usize) {

@@ -45,6 +45,7 @@ impl Generator {
     fn common(&mut self) {
         self.line("VAR c0 : DINT; c1 : INT; c2 : USINT; w0, w1, w2 : INT; yes : BOOL := TRUE; n, r0, r1 : Pct; END_VAR");
         self.line("VAR cell : Cell; txt : STRING[10] := 'ABC'; wtx : WSTRING[5]; END_VAR");
+        self.line("VAR sh : Shared; END_VAR");
         self.line("VAR rg : REF_TO INT := REF(gi); rp : REF_TO Point := REF(gp); rr : REF_TO LREAL := REF(gr); END_VAR");
         self.line("VAR_EXTERNAL CONSTANT KI : INT; KR : REAL; KW : WORD; END_VAR");
         self.line("VAR_EXTERNAL gi : INT; gr : LREAL; gp : Point; gdur : TIME; gw : WORD; gb : BOOL; END_VAR");
@@ -75,6 +76,7 @@ impl Generator {
         ] {
             self.whole(text, ty, declared);
         }
+        self.shared_places("sh");
         let sum =
             Var { text: "OpenSum(cell.row)".into(), ty: Ty::E(E::Dint), declared: "DINT".into(), writable: false, whole: false };
         self.vars.push(sum);
@@ -116,7 +118,7 @@ impl Generator {
     pub(super) fn block(&mut self, i: usize) {
         let name = format!("Blk{i}");
         self.clear(true);
-        self.line(format!("FUNCTION_BLOCK {name}"));
+        self.line(format!("FUNCTION_BLOCK {name} IMPLEMENTS Meter"));
         let inputs = self.declare("a", 3, "VAR_INPUT", false);
         let outputs = self.declare("o", 2, "VAR_OUTPUT", true);
         let lent = if self.one_in(2) { self.declare("io", 1, "VAR_IN_OUT", true) } else { Vec::new() };
@@ -127,6 +129,7 @@ impl Generator {
         self.scalar("down", E::Bool, false);
         self.common();
         self.standard_blocks("", 1);
+        self.method();
         self.body(5);
         self.line("END_FUNCTION_BLOCK");
         self.blocks.push(Callable { name, inputs, outputs, lent, result: Ty::Mode });
@@ -166,8 +169,9 @@ impl Generator {
         );
         self.line("  pcts : ARRAY[1..4] OF Pct; bits : ARRAY[0..9] OF BOOL;");
         for i in 0..self.blocks.len() {
-            self.line(format!("  b{i} : Blk{i}; bs{i} : ARRAY[0..1] OF Blk{i};"));
+            self.line(format!("  b{i} : Blk{i}; bs{i} : ARRAY[0..1] OF Blk{i}; sub{i} : Sub{i};"));
         }
+        self.line("  meter : Meter;");
         self.line("END_VAR");
         self.compound_places();
         self.body(shape.statements);
@@ -191,7 +195,7 @@ impl Generator {
         self.whole("cells[@-1..1@]", Ty::Cell, "Cell");
         self.whole("deep[@0..1@][@1..2@]", Ty::Point, "Point");
         for i in 0..self.blocks.len() {
-            for instance in [format!("b{i}"), format!("bs{i}[@0..1@]")] {
+            for instance in [format!("b{i}"), format!("bs{i}[@0..1@]"), format!("sub{i}")] {
                 for output in self.blocks[i].outputs.clone() {
                     let text = format!("{instance}.{}", output.text);
                     self.add(Var { text, writable: false, ..output });
