@@ -5,6 +5,7 @@
 use super::conditional::{Conditional, Mistake};
 use super::keyword::Kw;
 use super::report::Report;
+use super::silence::{Silence, Silences};
 use logos::{Lexer, Logos};
 use takt_base::diag::{Code, Diag};
 use takt_base::{Profile, SourceId, Span};
@@ -149,6 +150,8 @@ pub(crate) struct Tokens {
     pub(crate) inline_c: Vec<(usize, Span)>,
     /// `{test ...}` pragmas: position in `list` of the token that follows, and text with its place, ascending.
     pub(crate) tests: Vec<(usize, String, Span)>,
+    /// Regions of `{warning disable ..}`.
+    pub(crate) silenced: Vec<Silence>,
     /// A comment or pragma that is not closed (and has been reported) hides the end of the text.
     pub(crate) cut: bool,
 }
@@ -170,6 +173,7 @@ pub(crate) fn lex(text: &str, source: SourceId, profile: Profile, report: &mut R
         qualified_only: Vec::new(),
         inline_c: Vec::new(),
         tests: Vec::new(),
+        silences: Silences::default(),
         conditional: Conditional::default(),
         profile,
         cut: false,
@@ -205,6 +209,7 @@ pub(crate) fn lex(text: &str, source: SourceId, profile: Profile, report: &mut R
         qualified_only: scan.qualified_only,
         inline_c: scan.inline_c,
         tests: scan.tests,
+        silenced: scan.silences.finish(),
         cut: scan.cut,
     }
 }
@@ -224,6 +229,7 @@ struct Scan<'t, 'r, 's> {
     qualified_only: Vec<usize>,
     inline_c: Vec<(usize, Span)>,
     tests: Vec<(usize, String, Span)>,
+    silences: Silences,
     /// `{IF ..}` of CODESYS; not followed in other profiles.
     conditional: Conditional,
     profile: Profile,
@@ -395,6 +401,8 @@ impl Scan<'_, '_, '_> {
         self.logos.bump(n + close.len());
         if text.eq_ignore_ascii_case("external") {
             self.external.push(before);
+        } else if self.conditional.is_active() && self.silences.follow(text, opener.start) {
+            // Followed.
         } else if super::test_pragma::is_test(text) {
             self.tests.push((before, text.to_owned(), Span { start: opener.start, ..self.span() }));
         } else if text.split_once(char::is_whitespace).is_some_and(|(a, b)| a == "attribute" && b.trim() == "'qualified_only'") {

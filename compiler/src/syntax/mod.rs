@@ -9,6 +9,7 @@ mod lexer;
 mod literal;
 mod parser;
 mod report;
+pub mod silence;
 pub mod test_pragma;
 #[cfg(test)]
 mod tests;

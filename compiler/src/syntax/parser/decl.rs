@@ -20,7 +20,7 @@ impl Parser<'_> {
             }
         }
         self.misplaced_tests();
-        File { items }
+        File { items, silenced: std::mem::take(&mut self.tokens.silenced) }
     }
 
     pub(super) fn item(&mut self) -> Option<Item> {
