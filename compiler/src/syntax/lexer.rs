@@ -174,6 +174,7 @@ pub(crate) fn lex(text: &str, source: SourceId, profile: Profile, report: &mut R
         inline_c: Vec::new(),
         tests: Vec::new(),
         silences: Silences::default(),
+        resumed: false,
         conditional: Conditional::default(),
         profile,
         cut: false,
@@ -230,6 +231,8 @@ struct Scan<'t, 'r, 's> {
     inline_c: Vec<(usize, Span)>,
     tests: Vec<(usize, String, Span)>,
     silences: Silences,
+    /// Something that is never closed was left open.
+    resumed: bool,
     /// `{IF ..}` of CODESYS; not followed in other profiles.
     conditional: Conditional,
     profile: Profile,
@@ -372,9 +375,11 @@ impl Scan<'_, '_, '_> {
                 _ => i += 1,
             }
         }
-        self.logos.bump(i.min(rest.len()));
-        if depth > 0 {
-            self.cut = true;
+        let end = i.min(rest.len());
+        if depth == 0 {
+            self.logos.bump(end);
+        } else {
+            self.leave_open();
             let diag = Diag::new(Code::UnterminatedComment, opener, "opened here and still open at the end of the file");
             let diag = match inner {
                 Some(at) => diag.also(Span::new(self.source, at, at + 2), "a comment inside it opens (comments nest)"),
@@ -391,8 +396,7 @@ impl Scan<'_, '_, '_> {
         let rest = self.logos.remainder();
         let close = if rest.starts_with('{') { "}}" } else { "}" };
         let Some(n) = rest.find(close) else {
-            self.logos.bump(rest.len());
-            self.cut = true;
+            self.leave_open();
             let diag = Diag::new(Code::UnterminatedComment, opener, "opened here and still open at the end of the file");
             self.report.push(diag.message("a pragma is not closed").help(format!("close it with {close}")));
             return None;
@@ -419,6 +423,15 @@ impl Scan<'_, '_, '_> {
             self.report.push(diag.message(format!("{what} is not supported by this version")));
         }
         None
+    }
+
+    /// Goes on where code follows what is never closed; once, so that the time stays linear.
+    fn leave_open(&mut self) {
+        let rest = self.logos.remainder();
+        let end = super::unclosed::resume(rest).filter(|_| !self.resumed);
+        self.cut |= end.is_none();
+        self.resumed = true;
+        self.logos.bump(end.unwrap_or(rest.len()));
     }
 
     fn check_conditional(&mut self, followed: Result<(), Mistake>) {

@@ -13,6 +13,7 @@ pub mod silence;
 pub mod test_pragma;
 #[cfg(test)]
 mod tests;
+mod unclosed;
 
 pub(crate) use parser::il::nearest_operator;
 pub use parser::parse;
