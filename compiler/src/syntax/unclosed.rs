@@ -18,9 +18,17 @@ fn is_code(line: &str) -> bool {
     let line = line[..end].trim();
     let first = line.split(|c: char| !c.is_alphanumeric() && c != '_').next().unwrap_or("").to_ascii_uppercase();
     let last = line.rsplit(char::is_whitespace).next().unwrap_or("").to_ascii_uppercase();
-    let opens = matches!(first.as_str(), "FUNCTION_BLOCK" | "FUNCTION" | "PROGRAM" | "TYPE" | "CLASS" | "INTERFACE" | "CONFIGURATION" | "NAMESPACE");
+    let opens = matches!(
+        first.as_str(),
+        "FUNCTION_BLOCK" | "FUNCTION" | "PROGRAM" | "TYPE" | "CLASS" | "INTERFACE" | "CONFIGURATION" | "NAMESPACE"
+    );
     let opens = opens && line.split_whitespace().count() <= 4;
-    line.ends_with(';') || first.starts_with("END_") || first == "VAR" || first.starts_with("VAR_") || opens || matches!(last.as_str(), "THEN" | "DO" | "OF")
+    line.ends_with(';')
+        || first.starts_with("END_")
+        || first == "VAR"
+        || first.starts_with("VAR_")
+        || opens
+        || matches!(last.as_str(), "THEN" | "DO" | "OF")
 }
 
 #[cfg(test)]
@@ -31,7 +39,10 @@ mod tests {
     fn prose_is_skipped_and_code_found() {
         let at = |rest: &str| resume(rest).map(|n| rest[n..].lines().next().unwrap_or("").to_owned());
         assert_eq!(at(" note x := 1;\n  y := 2;\n"), Some("  y := 2;".to_owned()));
-        assert_eq!(at(" a comment\n of several lines, one about\n the program and functions\nIF a THEN (* *)\n"), Some("IF a THEN (* *)".to_owned()));
+        assert_eq!(
+            at(" a comment\n of several lines, one about\n the program and functions\nIF a THEN (* *)\n"),
+            Some("IF a THEN (* *)".to_owned())
+        );
         assert_eq!(at("\n\nEND_PROGRAM"), Some("END_PROGRAM".to_owned()));
         assert_eq!(at("\nFUNCTION f : INT\n"), Some("FUNCTION f : INT".to_owned()));
         assert_eq!(at(" x := 1;"), None);
