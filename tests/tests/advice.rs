@@ -159,7 +159,7 @@ fn p6007_equality_of_reals() {
 
 #[test]
 fn p6008_conditions_with_one_outcome() {
-    let vars = "u : USINT; i : INT; r : REAL; q : BOOL; y : BYTE; l : ARRAY [0..3] OF INT; p : INT (0..100);";
+    let vars = "u : USINT; i : INT; r : REAL; q : BOOL; y : BYTE; l : ARRAY [0..3] OF INT; p : INT (0..100); END_VAR VAR CONSTANT first : USINT := 0;";
     let hit = |body: &str| in_program(Code::OneOutcome, vars, body);
     for one in [
         "u < 0",
@@ -195,6 +195,7 @@ fn p6008_conditions_with_one_outcome() {
         "r > 1.0 OR r <= 1.0",
         "l[i] <> l[u]",
         "i < 1 OR i > 9",
+        "u >= first",
         "i = 1 AND u = 2",
         "TRUE",
         "i >= 5 AND i <= 5",

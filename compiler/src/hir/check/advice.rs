@@ -6,6 +6,7 @@ use super::{
 };
 use super::{unused_method, writers};
 use crate::hir::builder::Builder;
+use crate::hir::model::PouId;
 use takt_base::Diag;
 
 /// Runs all rules.
@@ -22,7 +23,12 @@ pub(super) fn give(builder: &mut Builder) {
 fn about_units(builder: &Builder) -> Vec<Diag> {
     let mut out = Vec::new();
     let (mut members, mut failing) = (hidden::Members::new(), success::Failing::new());
-    for (id, pou) in builder.hir.pous.enumerate().filter(|(id, _)| !builder.symbols.pous[*id].library) {
+    // Of a unit that is partly or wholly written elsewhere too little is known.
+    let known = |id: PouId| {
+        let entry = &builder.symbols.pous[id];
+        !entry.library && !entry.decl.external && entry.decl.inline_c.is_none()
+    };
+    for (id, pou) in builder.hir.pous.enumerate().filter(|(id, _)| known(*id)) {
         unused::check(builder, id, &mut out);
         hidden::check(builder, id, &mut members, &mut out);
         for rule in [equality::check, never_read::check, outcome::check, overwritten::check] {

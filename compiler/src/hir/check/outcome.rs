@@ -1,4 +1,4 @@
-//! P6008: conditions that have only one outcome. A constant at or beyond the edge of the range of the type (`USINT < 0`); a variable compared
+//! P6008: conditions that have only one outcome. A constant at or beyond the edge of the range of the type (`USINT < 0`), unless it has a name; a variable compared
 //! with itself; and two comparisons of one variable that can't both hold (`x > 9 AND x < 1`) or one of which always does
 //! (`x <> 1 OR x <> 2`). Conditions made of constants alone are fine: that is how a program is configured.
 
@@ -46,8 +46,8 @@ fn itself(builder: &Builder, op: BinaryOp, a: &Expr, b: &Expr) -> Found {
 /// A constant outside of what the other side can be.
 fn edge(builder: &Builder, op: BinaryOp, a: &Expr, b: &Expr) -> Found {
     let (op, e, value) = match (whole(a), whole(b)) {
-        (None, Some(v)) => (op, a, v),
-        (Some(v), None) => (mirrored(op), b, v),
+        (None, Some(v)) if is_literal(builder, b) => (op, a, v),
+        (Some(v), None) if is_literal(builder, a) => (mirrored(op), b, v),
         _ => return None,
     };
     let (low, high) = range(builder, e)?;
@@ -65,6 +65,12 @@ fn edge(builder: &Builder, op: BinaryOp, a: &Expr, b: &Expr) -> Found {
         _ => return None,
     };
     Some((outcome, format!("the other side is {low} to {high}")))
+}
+
+/// True for `5`, `-5` and `INT#5`; a constant with a name may have another value tomorrow.
+fn is_literal(builder: &Builder, e: &Expr) -> bool {
+    let text = builder.sources.text(e.span);
+    text.contains('#') || text.starts_with(|c: char| c.is_ascii_digit() || matches!(c, '-' | '+'))
 }
 
 fn whole(e: &Expr) -> Option<i128> {
