@@ -100,6 +100,9 @@ fn p6003_unused_variables() {
     assert!(advice(derived).is_empty(), "{:?}", advice(derived));
     let il = "PROGRAM main VAR a, b, c : INT; END_VAR LD a\nADD b\nST a\nEND_PROGRAM";
     assert_eq!(advice(il), ["P6003 c"]);
+    let c = "FUNCTION_BLOCK b VAR x : INT; END_VAR {extern int y; y = x;} END_FUNCTION_BLOCK
+        PROGRAM main VAR a : INT; END_VAR a := a + 1; END_PROGRAM";
+    assert!(advice_in(Profile::OpenPlc, c).is_empty(), "C may use it");
 }
 
 #[test]
