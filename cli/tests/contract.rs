@@ -7,6 +7,7 @@ use serde_json::json;
 use std::fs;
 
 const VALUES: &str = "TYPE Mode : (idle, fast); Point : STRUCT x : INT := 3; y : REAL; END_STRUCT; END_TYPE
+{warning disable P6003}
 PROGRAM main
 VAR
   b : BOOL := TRUE; i : INT := -5; big : LINT := 9007199254740993; w : LWORD := 16#FFFF_FFFF_FFFF_FFFF; u : UDINT := 7;

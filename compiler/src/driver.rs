@@ -54,6 +54,7 @@ pub fn compile(project: Project) -> Compilation {
     let (sources, mut sink) = (sources(&project.files), Sink::new());
     let files = parse(&sources, &mut sink);
     let mut hir = hir::build(&files, &sources, &mut sink);
+    syntax::silence::apply(&files, &mut sink);
     set_interval(&mut hir, &files, project.interval);
     compilation(hir, sources, project, sink)
 }
@@ -63,6 +64,7 @@ pub fn compile_tests(project: Project) -> (Compilation, Vec<hir::Test>) {
     let (sources, mut sink) = (sources(&project.files), Sink::new());
     let files = parse(&sources, &mut sink);
     let (hir, tests) = hir::build_tests(&files, &sources, &mut sink);
+    syntax::silence::apply(&files, &mut sink);
     (compilation(hir, sources, project, sink), tests)
 }
 

@@ -1,8 +1,8 @@
 //! Every diagnostic and fault code, once. A code is for ever: never reused, never renumbered.
 //!
-//! P0 text, P1 names, P2 types, P3 program rules, P4 tasks and configuration, P5 Instruction List; N g-code; C project and image files;
-//! T tests; F runtime faults, whose number is the ErrorID word of a function block in hexadecimal. Each has a page in `docs/codes/`,
-//! which `takt explain` prints.
+//! P0 text, P1 names, P2 types, P3 program rules, P4 tasks and configuration, P5 Instruction List, P6 advice (allowed, and most
+//! likely a mistake: always a warning); N g-code; C project and image files; T tests; F runtime faults, whose number is the ErrorID word
+//! of a function block in hexadecimal. Each has a page in `docs/codes/`, which `takt explain` prints.
 
 use super::Severity;
 
@@ -148,6 +148,21 @@ codes! {
     P5007 NotInParentheses "this instruction can't stand inside of parentheses";
     P5008 NoInputOperator "the instance has no such input operator";
 
+    // --- P6 advice ---
+    P6001 Unreachable "this statement is never reached" Warning;
+    P6002 NotYetAssigned "this variable is read before anything is assigned to it" Warning;
+    P6003 Unused "this variable is never used" Warning;
+    P6004 NeverRead "this variable is assigned and never read" Warning;
+    P6005 UnusedMethod "this private method is never called" Warning;
+    P6006 HidesOuter "this variable hides something of the same name" Warning;
+    P6007 RealEquality "reals are seldom exactly equal" Warning;
+    P6008 OneOutcome "this condition has only one outcome" Warning;
+    P6009 ShiftTooFar "this shift leaves nothing" Warning;
+    P6010 SuccessIgnored "nobody looks at whether this call succeeded" Warning;
+    P6011 TwoWriters "two programs write this output" Warning;
+    P6012 Overwritten "this value is overwritten before anybody sees it" Warning;
+    P6013 SelfAssignment "a variable is assigned to itself" Warning;
+
     // --- N g-code ---
     N0001 BadCharacter "this character is not part of a g-code block";
     N0002 BadWord "this word is not well formed";
@@ -219,6 +234,10 @@ impl Code {
     /// The code with this number, if there is one. Case does not matter.
     pub fn from_text(text: &str) -> Option<Code> {
         Code::ALL.iter().copied().find(|c| c.text().eq_ignore_ascii_case(text))
+    }
+    /// True for the P6 codes: what is allowed and most likely a mistake.
+    pub fn is_advice(self) -> bool {
+        self.text().starts_with("P6")
     }
     /// The number of an F code as an ErrorID word (`F0701` is 16#0701); 0 for all others.
     pub fn error_id(self) -> u16 {

@@ -46,6 +46,8 @@ pub(super) struct Builder<'a> {
     pub unfolded: bool,
     /// The tests are the machine: see `hir::build_tests`.
     pub tests: bool,
+    /// Declarations of variables that some text mentions.
+    pub used: HashSet<Span>,
     /// Types with their methods and heritage.
     pub objects: super::objects::Table,
     /// Program instances of all resources.
@@ -82,6 +84,7 @@ impl<'a> Builder<'a> {
             guards_next: false,
             unfolded: false,
             tests: false,
+            used: HashSet::new(),
             objects: super::objects::Table::default(),
             planned: Vec::new(),
             values: BTreeMap::new(),

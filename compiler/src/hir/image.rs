@@ -66,6 +66,11 @@ impl ImagePlan {
     pub fn has_open(&self, pou: PouId) -> bool {
         self.open.keys().any(|o| matches!(o, Owner::Var(p, _) if *p == pou))
     }
+    /// First byte of %Q in the memory, and the first behind it.
+    pub fn output_bytes(&self) -> (u32, u32) {
+        let first = self.starts[Area::Output as usize];
+        (first, first + self.extent[Area::Output as usize])
+    }
     fn place(&self, cell: Cell) -> ImagePlace {
         let byte = self.starts[cell.area as usize] + cell.byte;
         cell.bit.map_or(ImagePlace::Byte(byte), |bit| ImagePlace::Bit(byte, bit))

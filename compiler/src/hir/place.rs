@@ -155,6 +155,7 @@ impl Builder<'_> {
     }
 
     fn variable(&mut self, n: &ast::Name) -> Option<Target> {
+        self.note_use(n);
         let id = match self.local(&n.key()) {
             Some(Local::Var(id)) => return Some(self.own_variable(id, n.span)),
             Some(Local::Member(id)) => return self.own_member(id, n),
@@ -255,6 +256,9 @@ impl Builder<'_> {
             return None;
         };
         let (ty, section) = (record.fields[index].ty, record.fields[index].section);
+        if instance {
+            self.note_member_use(base.place.ty, index);
+        }
         if section == Section::InOut {
             let help = "use the variable that is bound to it in the call";
             self.report(Diag::new(Code::UnknownMember, name.span, "a VAR_IN_OUT is not visible from outside").help(help));

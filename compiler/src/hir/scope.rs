@@ -71,6 +71,27 @@ impl Builder<'_> {
         self.scope.names.get(key).map(|l| l.0).or_else(|| self.scope.members.get(key).copied())
     }
 
+    /// Remembers that the variable of this name, if there is one in the unit or its type, is mentioned.
+    pub fn note_use(&mut self, n: &ast::Name) {
+        let key = n.key();
+        if let Some(&(_, span)) = self.scope.names.get(&key) {
+            self.used.insert(span);
+        } else if let Some(Local::Member(v)) = self.scope.members.get(&key)
+            && let Some(owner) = self.own_type()
+        {
+            self.used.insert(self.hir.pous[owner].vars[*v].span);
+        }
+    }
+
+    /// The same for a variable that is reached through an instance, by the number of its field.
+    pub fn note_member_use(&mut self, instance: TypeId, field: usize) {
+        let Some(pou) = self.objects.types.get(&instance).map(|id| &self.hir.pous[*id]) else { return };
+        let is = |v: &&Var| v.storage == Storage::Field(field as u32);
+        if let Some(var) = pou.vars.iter().find(is) {
+            self.used.insert(var.span);
+        }
+    }
+
     /// The global of this name; its direct use without VAR_EXTERNAL is mentioned once a unit.
     pub fn global(&mut self, name: &ast::Name) -> Option<GlobalId> {
         let id = self.global_id(name)?;

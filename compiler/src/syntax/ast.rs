@@ -34,6 +34,8 @@ impl Name {
 pub struct File {
     /// Declarations in order.
     pub items: Vec<Item>,
+    /// Where warnings are not shown.
+    pub silenced: Vec<super::silence::Silence>,
 }
 
 /// A declaration of a file.

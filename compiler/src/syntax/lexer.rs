@@ -5,6 +5,7 @@
 use super::conditional::{Conditional, Mistake};
 use super::keyword::Kw;
 use super::report::Report;
+use super::silence::{Silence, Silences};
 use logos::{Lexer, Logos};
 use takt_base::diag::{Code, Diag};
 use takt_base::{Profile, SourceId, Span};
@@ -149,6 +150,8 @@ pub(crate) struct Tokens {
     pub(crate) inline_c: Vec<(usize, Span)>,
     /// `{test ...}` pragmas: position in `list` of the token that follows, and text with its place, ascending.
     pub(crate) tests: Vec<(usize, String, Span)>,
+    /// Regions of `{warning disable ..}`.
+    pub(crate) silenced: Vec<Silence>,
     /// A comment or pragma that is not closed (and has been reported) hides the end of the text.
     pub(crate) cut: bool,
 }
@@ -170,6 +173,8 @@ pub(crate) fn lex(text: &str, source: SourceId, profile: Profile, report: &mut R
         qualified_only: Vec::new(),
         inline_c: Vec::new(),
         tests: Vec::new(),
+        silences: Silences::default(),
+        resumed: false,
         conditional: Conditional::default(),
         profile,
         cut: false,
@@ -205,6 +210,7 @@ pub(crate) fn lex(text: &str, source: SourceId, profile: Profile, report: &mut R
         qualified_only: scan.qualified_only,
         inline_c: scan.inline_c,
         tests: scan.tests,
+        silenced: scan.silences.finish(),
         cut: scan.cut,
     }
 }
@@ -224,6 +230,9 @@ struct Scan<'t, 'r, 's> {
     qualified_only: Vec<usize>,
     inline_c: Vec<(usize, Span)>,
     tests: Vec<(usize, String, Span)>,
+    silences: Silences,
+    /// Something that is never closed was left open.
+    resumed: bool,
     /// `{IF ..}` of CODESYS; not followed in other profiles.
     conditional: Conditional,
     profile: Profile,
@@ -366,9 +375,11 @@ impl Scan<'_, '_, '_> {
                 _ => i += 1,
             }
         }
-        self.logos.bump(i.min(rest.len()));
-        if depth > 0 {
-            self.cut = true;
+        let end = i.min(rest.len());
+        if depth == 0 {
+            self.logos.bump(end);
+        } else {
+            self.leave_open();
             let diag = Diag::new(Code::UnterminatedComment, opener, "opened here and still open at the end of the file");
             let diag = match inner {
                 Some(at) => diag.also(Span::new(self.source, at, at + 2), "a comment inside it opens (comments nest)"),
@@ -385,8 +396,7 @@ impl Scan<'_, '_, '_> {
         let rest = self.logos.remainder();
         let close = if rest.starts_with('{') { "}}" } else { "}" };
         let Some(n) = rest.find(close) else {
-            self.logos.bump(rest.len());
-            self.cut = true;
+            self.leave_open();
             let diag = Diag::new(Code::UnterminatedComment, opener, "opened here and still open at the end of the file");
             self.report.push(diag.message("a pragma is not closed").help(format!("close it with {close}")));
             return None;
@@ -395,6 +405,8 @@ impl Scan<'_, '_, '_> {
         self.logos.bump(n + close.len());
         if text.eq_ignore_ascii_case("external") {
             self.external.push(before);
+        } else if self.conditional.is_active() && self.silences.follow(text, opener.start) {
+            // Followed.
         } else if super::test_pragma::is_test(text) {
             self.tests.push((before, text.to_owned(), Span { start: opener.start, ..self.span() }));
         } else if text.split_once(char::is_whitespace).is_some_and(|(a, b)| a == "attribute" && b.trim() == "'qualified_only'") {
@@ -411,6 +423,15 @@ impl Scan<'_, '_, '_> {
             self.report.push(diag.message(format!("{what} is not supported by this version")));
         }
         None
+    }
+
+    /// Goes on where code follows what is never closed; once, so that the time stays linear.
+    fn leave_open(&mut self) {
+        let rest = self.logos.remainder();
+        let end = super::unclosed::resume(rest).filter(|_| !self.resumed);
+        self.cut |= end.is_none();
+        self.resumed = true;
+        self.logos.bump(end.unwrap_or(rest.len()));
     }
 
     fn check_conditional(&mut self, followed: Result<(), Mistake>) {

@@ -9,9 +9,11 @@ mod lexer;
 mod literal;
 mod parser;
 mod report;
+pub mod silence;
 pub mod test_pragma;
 #[cfg(test)]
 mod tests;
+mod unclosed;
 
 pub(crate) use parser::il::nearest_operator;
 pub use parser::parse;

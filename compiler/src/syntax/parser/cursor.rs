@@ -190,6 +190,10 @@ impl<'a> Parser<'a> {
             self.soft(diag.help(Profile::CODESYS_HELP));
         }
     }
+    /// Reports whatever was reported before.
+    pub(super) fn report_always(&mut self, diag: Diag) {
+        self.report.push(diag);
+    }
     /// Reports a warning, whatever was reported before.
     pub(super) fn warn(&mut self, diag: Diag) {
         self.report.push(diag.severity(takt_base::diag::Severity::Warning));

@@ -2,7 +2,7 @@
 //! From: IEC 61131-3 §6.6 (language reference §3.9, §4).
 
 use super::cursor::Parser;
-use crate::syntax::ast::{File, Item, Name, Objects, Pou, PouKind, Stmt, TypeRef, VarSection};
+use crate::syntax::ast::{File, Item, Name, Objects, Pou, PouKind, Stmt, TypeRef, TypeRefKind, VarSection};
 use crate::syntax::keyword::Kw;
 use crate::syntax::lexer::Tok;
 use takt_base::diag::{Code, Diag};
@@ -12,6 +12,7 @@ impl Parser<'_> {
     /// The whole file.
     pub(super) fn file(mut self) -> File {
         let mut items = Vec::new();
+        self.mend_keywords();
         while !self.at_end() {
             let before = self.pos;
             items.extend(self.item());
@@ -20,7 +21,7 @@ impl Parser<'_> {
             }
         }
         self.misplaced_tests();
-        File { items }
+        File { items, silenced: std::mem::take(&mut self.tokens.silenced) }
     }
 
     pub(super) fn item(&mut self) -> Option<Item> {
@@ -108,6 +109,11 @@ impl Parser<'_> {
         }
         if self.eat_kw(Kw::Void) {
             return None;
+        }
+        if self.is_first_on_line() && self.nth(1).kind == Tok::Assign {
+            let diag = self.missing_diag("the type of the result");
+            self.soft(diag.help("write for example : INT"));
+            return Some(TypeRef { kind: TypeRefKind::Error, span: self.here() });
         }
         let ty = self.type_ref();
         if self.lost {

@@ -137,6 +137,11 @@ impl Parser<'_> {
         }
         if !self.eat_kw(Kw::To) {
             let diag = self.expected_diag("TO and the last value").also(opener, "this FOR needs it");
+            if self.kw() == Kw::Until {
+                self.soft(diag.help("write TO"));
+                self.bump();
+                return self.expr();
+            }
             if self.at(Tok::Semi) {
                 self.error(diag.help("write for example FOR i := 0 TO 9 DO"));
                 self.skip_line_to(Kw::Do);

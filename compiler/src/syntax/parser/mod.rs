@@ -12,6 +12,7 @@ mod init;
 mod instance;
 mod literal;
 mod loops;
+mod misspelt;
 mod namespace;
 mod object;
 mod recover;

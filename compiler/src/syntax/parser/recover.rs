@@ -89,7 +89,8 @@ impl Parser<'_> {
         if self.eat_kw(kw) {
             return;
         }
-        if matches!(self.kw(), Kw::Then | Kw::Do | Kw::Of) {
+        let other = self.at(Tok::Word) && self.kw() == Kw::None && !self.is_first_on_line() && self.next_opens_line();
+        if other || matches!(self.kw(), Kw::Then | Kw::Do | Kw::Of) {
             let diag = self.expected_diag(kw.text()).also(opener, format!("this {opener_name} needs it"));
             self.soft(diag.help(format!("write {}", kw.text())));
             self.bump();

@@ -79,10 +79,15 @@ impl Parser<'_> {
             return Stmt { kind: StmtKind::Error, span: start };
         }
         let kind = self.statement_kind();
+        let simple = matches!(kind, StmtKind::Assign { .. } | StmtKind::Call(_));
         self.leave();
         let span = self.since(start);
         if !matches!(kind, StmtKind::Empty) {
-            self.terminator();
+            let whole = self.terminator();
+            // What a mistake has cut off is not judged by its rest.
+            if simple && !whole {
+                return Stmt { kind: StmtKind::Error, span };
+            }
         }
         Stmt { kind, span }
     }
@@ -106,7 +111,10 @@ impl Parser<'_> {
             Kw::Return => self.return_statement(),
             Kw::Jmp if self.nth(1).kind == Tok::Word => self.jump_statement(),
             _ if self.at(Tok::Word) && self.nth(1).kind == Tok::Colon && self.nth(2).kind != Tok::Eq => self.label_statement(),
-            _ => self.assign_or_call(),
+            _ => match self.misspelt_opener() {
+                Some(kind) => kind,
+                None => self.assign_or_call(),
+            },
         }
     }
 
@@ -136,24 +144,24 @@ impl Parser<'_> {
         StmtKind::Label(name)
     }
 
-    /// What ends a statement. After END_xxx it may be left out (vendor).
-    fn terminator(&mut self) {
+    /// What ends a statement; false if it does not end where it should. After END_xxx it may be left out (vendor).
+    fn terminator(&mut self) -> bool {
         if self.lost {
-            return self.skip_statement();
+            self.skip_statement();
+            return false;
         }
-        if self.eat(Tok::Semi) || self.prev().kw.ends_statement() {
-            return;
-        }
-        if self.prev().kind == Tok::Colon {
-            return; // a label
+        if self.eat(Tok::Semi) || self.prev().kw.ends_statement() || self.prev().kind == Tok::Colon {
+            return true; // behind a colon: a label
         }
         if self.is_first_on_line() || self.kw().ends_statements() || self.kw().opens_statement() || self.at_end() {
             let diag = self.missing_diag("`;`").message("expected `;` at the end of the statement");
-            return self.soft(diag);
+            self.soft(diag);
+            return true;
         }
         let diag = self.expected_diag("`;` or an operator");
         self.error(diag);
         self.skip_statement();
+        false
     }
 
     fn assign_or_call(&mut self) -> StmtKind {
@@ -284,7 +292,11 @@ impl Parser<'_> {
             return StmtKind::Error;
         }
         let name = self.text.get(target.span.start as usize..target.span.end as usize).unwrap_or("x");
-        let diag = self.expected_diag("`:=` or `(` behind the name");
+        let diag = if self.is_first_on_line() {
+            self.missing_diag("`:=` or `(`").message("expected `:=` or `(` behind the name")
+        } else {
+            self.expected_diag("`:=` or `(` behind the name")
+        };
         let diag = match (self.kind(), self.nth(1).kind) {
             (Tok::Plus, Tok::Plus) => diag.help(format!("write {name} := {name} + 1")),
             (Tok::Minus, Tok::Minus) => diag.help(format!("write {name} := {name} - 1")),
@@ -309,7 +321,7 @@ impl Parser<'_> {
         condition
     }
 
-    fn if_statement(&mut self) -> StmtKind {
+    pub(super) fn if_statement(&mut self) -> StmtKind {
         let opener = self.here();
         self.bump();
         self.open.push(Kw::EndIf);

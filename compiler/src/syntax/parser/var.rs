@@ -143,6 +143,8 @@ impl Parser<'_> {
         let relative = if has_at { self.relative() } else { None };
         let at = if has_at && relative.is_none() { self.located()? } else { None };
         if !self.eat(Tok::Colon) {
+            // The type in front, which has been reported as a name.
+            self.lost |= names.len() == 1 && names.iter().all(|n| Kw::of(&n.text).is_type()) && self.at(Tok::Word);
             self.no_colon(&names);
             if self.lost {
                 return None;
