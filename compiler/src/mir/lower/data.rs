@@ -197,7 +197,7 @@ pub fn symbols(hir: &Hir, data: &Data) -> Vec<Symbol> {
 
 fn program_symbols(hir: &Hir, program: &ProgramInstance, offset: u32) -> Vec<Symbol> {
     let pou = &hir.pous[program.pou];
-    let symbol = |name: String, ty, place| Symbol { name, ty, place, constant: false, retain: false };
+    let symbol = |name: String, ty, place| Symbol { name, ty, place, constant: false, retain: false, access: None };
     let itself =
         pou.instance.filter(|_| program.global.is_none()).map(|ty| symbol(program.name.clone(), ty, ImagePlace::Byte(offset)));
     let located = pou.vars.iter().filter(|v| v.role != Role::Hidden).filter_map(|v| match v.storage {
