@@ -3,6 +3,7 @@
 #![allow(missing_docs)] // the names of fields and variants say it; what they do not say stands beside them
 
 use crate::syntax::ast::{BinaryOp, Edge};
+use std::collections::{BTreeMap, BTreeSet};
 use takt_base::index::IndexVec;
 use takt_base::{Nanos, SourceId, Span};
 use takt_image::image::Place as ImagePlace;
@@ -31,8 +32,14 @@ pub struct Hir {
     pub pous: IndexVec<PouId, Pou>,
     /// VAR_GLOBAL variables.
     pub globals: IndexVec<GlobalId, Global>,
-    /// Tasks with their program instances.
+    /// Tasks of all resources with their program instances.
     pub tasks: Vec<Task>,
+    /// Names of the resources if there are several: paths begin with them (§10.1). Empty for one.
+    pub resources: Vec<String>,
+    /// Of each resource, if there are several: what its units mean by the names of globals.
+    pub views: Vec<View>,
+    /// VAR_ACCESS.
+    pub accesses: Vec<AccessPath>,
     /// Variables of single instances that stand for an address, which VAR_CONFIG gives.
     pub mirrors: Vec<Mirror>,
     /// A program may be a variable too (vendor): its instance may be a global.
@@ -185,11 +192,54 @@ pub struct Global {
     pub constant: bool,
     /// RETAIN and its kin.
     pub keep: Keep,
+    /// Number of the resource that it belongs to, if it is not for all.
+    pub resource: Option<u32>,
     /// Declaration.
     pub span: Span,
 }
 
-/// A task of the resource.
+/// How a resource sees the globals: units are resolved once, with one of the variables of a name; in this resource they may mean
+/// another one (§3.5).
+#[derive(Clone, Debug, Default)]
+pub struct View {
+    /// Variable that a unit was resolved with, and the one of this resource.
+    pub renamed: BTreeMap<GlobalId, GlobalId>,
+    /// Units for which that makes a difference: they are lowered for this resource by themselves.
+    pub own: BTreeSet<PouId>,
+}
+
+/// A place that is known before anything runs.
+#[derive(Clone, Debug)]
+pub enum Spot {
+    /// In the process image.
+    Image(ImagePlace),
+    /// Bytes behind the start of a global or a program instance.
+    Part(Root, u32),
+}
+
+/// A path of VAR_ACCESS (§3.8).
+#[derive(Clone, Debug)]
+pub struct AccessPath {
+    pub name: String,
+    pub spot: Spot,
+    pub ty: TypeId,
+    /// READ_WRITE.
+    pub writable: bool,
+}
+
+/// A function block with a task of its own (§10.2).
+#[derive(Clone, Debug)]
+pub struct BoundBlock {
+    /// `program.variable`.
+    pub name: String,
+    /// Its type.
+    pub pou: PouId,
+    /// The program instance, and bytes behind its start.
+    pub program: Root,
+    pub offset: u32,
+}
+
+/// A task of a resource.
 #[derive(Debug)]
 pub struct Task {
     /// Name.
@@ -198,10 +248,14 @@ pub struct Task {
     pub priority: u32,
     /// Period.
     pub interval: Option<Nanos>,
-    /// SINGLE: a global BOOL or a bit of the process image.
-    pub single: Option<Place>,
+    /// SINGLE: a global BOOL, a bit of the process image or a variable of a program.
+    pub single: Option<Spot>,
+    /// Number of its resource.
+    pub resource: u32,
     /// Instances in declaration order.
     pub programs: Vec<ProgramInstance>,
+    /// Function blocks with this task; they run behind the programs.
+    pub blocks: Vec<BoundBlock>,
 }
 
 /// What an instance path begins with.
@@ -229,8 +283,8 @@ pub struct Mirror {
 
 impl Mirror {
     /// True if a program instance may use it when it runs.
-    pub fn is_seen_by(&self, program: &ProgramInstance) -> bool {
-        matches!(self.root, Root::Global(_)) || self.root == program.root()
+    pub fn is_seen_by(&self, program: &Root) -> bool {
+        matches!(self.root, Root::Global(_)) || self.root == *program
     }
 }
 
@@ -537,6 +591,17 @@ impl ProgramInstance {
 }
 
 impl Hir {
+    /// Name of something of a resource: with one resource its name is left out.
+    pub fn path(&self, resource: Option<u32>, name: &str) -> String {
+        match resource.and_then(|r| self.resources.get(r as usize)) {
+            Some(resource) => format!("{resource}.{name}"),
+            None => name.to_owned(),
+        }
+    }
+    /// Path of a global.
+    pub fn global_path(&self, g: &Global) -> String {
+        self.path(g.resource, &g.name)
+    }
     /// True if `sub` is `base` or extends it.
     pub fn extends(&self, sub: PouId, base: PouId) -> bool {
         let mut line = std::iter::successors(Some(sub), |id| self.pous[*id].base);

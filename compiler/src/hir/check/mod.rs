@@ -6,6 +6,7 @@ mod reach;
 mod recursion;
 mod result;
 mod section;
+mod views;
 
 use super::builder::Builder;
 
@@ -13,6 +14,7 @@ use super::builder::Builder;
 pub(super) fn all(builder: &mut Builder) {
     bound::check(builder);
     reach::mark(builder);
+    views::check(builder);
     recursion::check(builder);
     inline_c::check(builder);
 }
