@@ -26,7 +26,8 @@ pub(crate) fn sample() -> Image {
     let pump = t.record("Pump", members.into_iter().chain([m("light", light, Section::Var), m("edge", bool_, Section::Hidden)]));
     let pump = t.add(Type::Instance(pump));
     let memory = MemoryMap::new(8, 8, 8, 400, 64).expect("small");
-    let symbol = |name: &str, ty, place| Symbol { name: name.into(), ty, place, constant: false, retain: name == "main", access: None };
+    let symbol =
+        |name: &str, ty, place| Symbol { name: name.into(), ty, place, constant: false, retain: name == "main", access: None };
     let path = |name: &str, ty, place, access| Symbol { access: Some(access), ..symbol(name, ty, place) };
     Image {
         name: "cell".into(),

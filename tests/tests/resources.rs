@@ -2,6 +2,7 @@
 
 use takt_base::{Profile, Severity};
 use takt_tests::plc::{Plc, compile_in, compile_st};
+use takt_tests::timed::timed;
 
 fn codes(text: &str) -> Vec<&'static str> {
     let diags = compile_st(text).diags;
@@ -23,7 +24,7 @@ fn two(units: &str, outer: &str, a: &str, b: &str, rest: &str) -> String {
 
 /// A function, a block and a method that reach the global, each in its own way.
 const COUNTER: &str = "
-FUNCTION bump : INT VAR_INPUT by : INT; END_VAR VAR_EXTERNAL n : INT; END_VAR n := n + by; bump := n; END_FUNCTION
+FUNCTION bump : INT VAR_INPUT d : INT; END_VAR VAR_EXTERNAL n : INT; END_VAR n := n + d; bump := n; END_FUNCTION
 FUNCTION_BLOCK Twice VAR_EXTERNAL n : INT; END_VAR VAR last : INT; END_VAR
 METHOD PUBLIC look : INT VAR_EXTERNAL n : INT; END_VAR look := n; END_METHOD
 n := 2 * n; last := n; END_FUNCTION_BLOCK
@@ -139,7 +140,13 @@ fn s3_7_addresses_and_values_of_each_resource() {
     let units = "PROGRAM P VAR y AT %Q* : INT; n : INT := 1; END_VAR VAR_EXTERNAL g : INT; END_VAR y := n + g; END_PROGRAM";
     let part = "VAR_GLOBAL g : INT; END_VAR PROGRAM p : P;";
     let config = |more: &str| {
-        two(units, "", part, part, &format!("VAR_CONFIG A.p.y AT %QW0 : INT; B.p.y AT %QW1 : INT; A.p.n : INT := 5; B.g : INT := 40; {more} END_VAR"))
+        two(
+            units,
+            "",
+            part,
+            part,
+            &format!("VAR_CONFIG A.p.y AT %QW0 : INT; B.p.y AT %QW1 : INT; A.p.n : INT := 5; B.g : INT := 40; {more} END_VAR"),
+        )
     };
     let mut plc = Plc::new(&config(""));
     plc.scan(0).unwrap();
@@ -162,7 +169,8 @@ fn s10_4_retained_paths_begin_with_the_resource() {
 #[test]
 fn s10_1_vendor_globals_without_var_external() {
     let units = "PROGRAM P VAR x : INT; END_VAR x := g; g := g + 1; END_PROGRAM";
-    let text = two(units, "", "VAR_GLOBAL g : INT := 3; END_VAR PROGRAM p : P;", "VAR_GLOBAL g : INT := 6; END_VAR PROGRAM p : P;", "");
+    let text =
+        two(units, "", "VAR_GLOBAL g : INT := 3; END_VAR PROGRAM p : P;", "VAR_GLOBAL g : INT := 6; END_VAR PROGRAM p : P;", "");
     let mut plc = Plc::new_in(Profile::Codesys, &text);
     plc.scan(0).unwrap();
     check(&plc, &[("A.p.x", "3"), ("A.g", "4"), ("B.p.x", "6"), ("B.g", "7")]);
@@ -171,6 +179,7 @@ fn s10_1_vendor_globals_without_var_external() {
 
 #[test]
 fn s11_what_is_wrong_with_resources() {
+    let other = "PROGRAM Q END_PROGRAM";
     let unit = "PROGRAM P VAR_EXTERNAL g : INT; END_VAR g := 1; END_PROGRAM PROGRAM Q END_PROGRAM";
     let own = "VAR_GLOBAL g : INT; END_VAR PROGRAM p : P;";
     for (a, b, rest, want) in [
@@ -185,9 +194,28 @@ fn s11_what_is_wrong_with_resources() {
         ("PROGRAM p : Q;", "PROGRAM p : Q;", "PROGRAM q : Q;", "P0010"),
         ("PROGRAM p : Q;", "PROGRAM p : Q;", "END_CONFIGURATION CONFIGURATION d RESOURCE z ON PLC END_RESOURCE", "P0012"),
     ] {
-        assert_eq!(codes(&two(unit, "", a, b, rest)), [want], "{a} | {b} | {rest}");
+        let units = if a == own { unit } else { other };
+        assert_eq!(codes(&two(units, "", a, b, rest)), [want], "{a} | {b} | {rest}");
     }
-    assert_eq!(codes(&two(unit, "VAR_GLOBAL a : INT; END_VAR", own, own, "")), ["P1001"], "a global has the name of the resource");
+    assert_eq!(
+        codes(&two(unit, "VAR_GLOBAL a : INT; END_VAR", own, own, "")),
+        ["P1001"],
+        "a global has the name of the resource"
+    );
     // A unit that no program of the resource reaches does not need its globals.
     assert_eq!(codes(&two(unit, "", own, "PROGRAM p : Q;", "")), [""; 0]);
+}
+
+#[test]
+fn s10_2_one_scheduler_runs_the_tasks_of_all_resources() {
+    let units = "PROGRAM P VAR n : INT; END_VAR n := n + 1; END_PROGRAM";
+    let text = two(
+        units,
+        "VAR_GLOBAL go : BOOL; END_VAR",
+        "TASK slow (INTERVAL := T#4ms, PRIORITY := 5); PROGRAM p WITH slow : P;",
+        "TASK t (PRIORITY := 1, INTERVAL := T#2ms); TASK key (PRIORITY := 0, SINGLE := go); PROGRAM p WITH t : P; PROGRAM k WITH key : P;",
+        "",
+    );
+    let got = timed(&text, &[(3, "go", "TRUE")], &["A.p.n", "B.p.n", "B.k.n"], 5);
+    assert_eq!(got, ["B.t@0 0 1 0", "A.slow@0 1 1 0", "B.t@2 1 2 0", "B.key@3 1 2 1", "B.t@4 1 3 1", "A.slow@4 2 3 1"]);
 }

@@ -5,11 +5,13 @@ use super::builder::Builder;
 use super::config::instance;
 use super::convert::Operand;
 use super::model::*;
+use super::place::Target;
 use super::symbols::Unit;
 use crate::syntax::ast;
 use std::collections::HashMap;
 use takt_base::{Code, Diag, Span};
 use takt_image::types::Type;
+use takt_image::{Elementary, TypeId};
 
 impl<'a> Builder<'a> {
     pub(super) fn program(&mut self, decl: &'a ast::ProgramDecl, resource: u32) -> Option<ProgramInstance> {
@@ -62,13 +64,20 @@ impl<'a> Builder<'a> {
         match arg {
             ast::Arg::Input { name, value: Some(value) } => {
                 if let Some((var, ty)) = self.connected(program.pou, name, &[Role::Input]) {
-                    let value = self.value(value, ty);
+                    let direct = self.direct_as(value, ty);
+                    let value = match direct {
+                        Some(target) => Expr { kind: ExprKind::Load(target.place), ty, span: value.span },
+                        None => self.value(value, ty),
+                    };
                     program.inputs.push((var, value));
                 }
             }
             ast::Arg::Output { name, negated: false, target: Some(target) } => {
                 let Some((var, ty)) = self.connected(program.pou, name, &[Role::Output]) else { return };
-                let Some(place) = self.writable(target) else { return };
+                let Some(mut place) = self.writable(target) else { return };
+                if let Some(direct) = self.direct_as(target, ty) {
+                    place = direct.place;
+                }
                 let from = Expr { kind: ExprKind::Load(place.clone()), ty, span: target.span };
                 if self.fit(Operand::fixed(from), place.ty).ty != self.error {
                     program.outputs.push((var, place));
@@ -85,7 +94,19 @@ impl<'a> Builder<'a> {
         }
     }
 
-    fn connected(&mut self, pou: PouId, name: &ast::Name, roles: &[Role]) -> Option<(VarId, takt_image::TypeId)> {
+    /// A direct address as a variable of a type that has its width.
+    fn direct_as(&mut self, e: &ast::Expr, ty: TypeId) -> Option<Target> {
+        let ast::ExprKind::Direct(a) = &e.kind else { return None };
+        let bits = super::image::size_type(a.size).bits();
+        if self.hir.types.storage(ty).map(Elementary::bits) != Some(bits) {
+            return None;
+        }
+        let mut target = self.direct(a)?;
+        target.place.ty = ty;
+        Some(target)
+    }
+
+    fn connected(&mut self, pou: PouId, name: &ast::Name, roles: &[Role]) -> Option<(VarId, TypeId)> {
         let vars = &self.hir.pous[pou].vars;
         let found = vars.enumerate().find(|(_, v)| name.is(&v.name) && roles.contains(&v.role)).map(|(id, v)| (id, v.ty));
         if found.is_none() {

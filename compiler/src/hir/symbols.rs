@@ -226,7 +226,13 @@ impl<'a> Builder<'a> {
         }
     }
 
-    pub(super) fn collect_global(&mut self, section: &ast::VarSection, decl: &'a ast::VarDecl, name: &ast::Name, library: bool) -> GlobalId {
+    pub(super) fn collect_global(
+        &mut self,
+        section: &ast::VarSection,
+        decl: &'a ast::VarDecl,
+        name: &ast::Name,
+        library: bool,
+    ) -> GlobalId {
         let id = self.hir.globals.push(Global {
             name: self.full_name(name).text,
             ty: self.error,

@@ -28,8 +28,7 @@ fn task(program: &mut Program<'_>, module: &mut Module, t: &Task, number: usize)
 fn entry(program: &mut Program<'_>, module: &mut Module, p: &ProgramInstance, instance: u32, task: &str) -> image::Program {
     let name = program.hir.path(Some(p.resource), &p.name);
     let root = p.root();
-    let connected =
-        !p.inputs.is_empty() || !p.outputs.is_empty() || program.hir.mirrors.iter().any(|m| m.is_seen_by(&root));
+    let connected = !p.inputs.is_empty() || !p.outputs.is_empty() || program.hir.mirrors.iter().any(|m| m.is_seen_by(&root));
     let function = if connected {
         module.functions.push(wrapper(program, p, format!("{name}@{task}"))).index() as u32
     } else {

@@ -2,7 +2,7 @@
 //! From: IEC 61131-3 §6.8.2 (language reference §10.1).
 
 use super::cursor::Parser;
-use crate::syntax::ast::{Configuration, Expr, Name, ProgramDecl, Resource, TaskDecl};
+use crate::syntax::ast::{Configuration, Expr, ExprKind, Name, ProgramDecl, Resource, TaskDecl};
 use crate::syntax::keyword::Kw;
 use crate::syntax::lexer::Tok;
 use takt_base::Span;
@@ -126,6 +126,7 @@ impl Parser<'_> {
             let diag = Diag::new(Code::NotSupportedYet, property.span, "several triggers for one task");
             self.soft(diag.help("write a SINGLE, and set its variable where one of the signals rises"));
             self.lost = true;
+            task.interval.get_or_insert(Expr { kind: ExprKind::Error, span: property.span });
             return;
         }
         if !self.expect(Tok::Assign, "`:=` and the value of the property") {
