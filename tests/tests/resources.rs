@@ -202,6 +202,12 @@ fn s11_what_is_wrong_with_resources() {
         ["P1001"],
         "a global has the name of the resource"
     );
+    // VAR_EXTERNAL names a global that is there, used or not.
+    let idle = "PROGRAM P VAR_EXTERNAL g : INT; END_VAR END_PROGRAM";
+    assert_eq!(codes(&two(idle, "", own, "PROGRAM p : P;", "")), ["P1009"]);
+    let tasks: String = (0..64).map(|i| format!("TASK t{i} (INTERVAL := T#1s); ")).collect();
+    let many: String = (0..15).map(|i| format!("RESOURCE r{i} ON x {tasks} END_RESOURCE ")).collect();
+    assert_eq!(codes(&two(other, "", &tasks, "TASK t (INTERVAL := T#1s);", &many)), ["P4003"], "more than 1024 tasks");
     // A unit that no program of the resource reaches does not need its globals.
     assert_eq!(codes(&two(unit, "", own, "PROGRAM p : Q;", "")), [""; 0]);
 }

@@ -161,6 +161,22 @@ fn s10_2_a_bound_block_with_addresses_and_in_another_resource() {
 }
 
 #[test]
+fn s10_2_a_native_block_with_a_task_is_called_there_alone() {
+    let units = "{external} FUNCTION_BLOCK Native VAR_INPUT x : INT; END_VAR VAR_OUTPUT y : INT; END_VAR END_FUNCTION_BLOCK
+    PROGRAM Main VAR f, g : Native; y : INT; END_VAR f(x := 3, y => y); g(x := 4); END_PROGRAM";
+    let inner = "TASK t (INTERVAL := T#2ms); TASK s (INTERVAL := T#4ms); PROGRAM p WITH t : Main (f WITH s);";
+    let c = compile_st(&plant(units, "x : INT;", inner));
+    let (module, image) = (c.module.expect("compiles"), c.image.expect("compiles"));
+    let calls = |f: &takt_compiler::mir::model::Function| {
+        let ops = f.blocks.iter().flat_map(|b| &b.insts);
+        ops.filter(|i| matches!(i.op, takt_compiler::mir::model::Op::CallNative { .. })).count()
+    };
+    let calling: Vec<_> = module.functions.iter().filter(|f| calls(f) > 0).map(|f| f.name.as_str()).collect();
+    assert_eq!(calling, ["Native@call0", "p.f@s"], "the program calls the guard");
+    assert_eq!(image.tasks[1].programs[0].name, "p.f");
+}
+
+#[test]
 fn s10_2_what_can_not_be_bound() {
     let units = "FUNCTION_BLOCK F VAR_INPUT x : INT; END_VAR END_FUNCTION_BLOCK FUNCTION_BLOCK G VAR_IN_OUT x : INT; END_VAR END_FUNCTION_BLOCK
     PROGRAM Main VAR_INPUT i : INT; END_VAR VAR f : F; g : G; n : INT; a : ARRAY [0..1] OF F; END_VAR END_PROGRAM";

@@ -8,6 +8,7 @@ use crate::syntax::ast;
 use std::collections::HashMap;
 use takt_base::{Code, Diag, Nanos, Span};
 use takt_image::Elementary;
+use takt_image::validate::MAX_TASKS;
 
 /// Period of the task that is made up when there is no CONFIGURATION.
 pub const DEFAULT_INTERVAL: Nanos = Nanos::from_millis(20);
@@ -31,6 +32,7 @@ impl<'a> Builder<'a> {
             self.resource(resource, number);
             self.scope.resource = None;
         }
+        self.check_all_tasks();
         self.share_programs();
         self.access_paths();
     }
@@ -80,6 +82,15 @@ impl<'a> Builder<'a> {
             if let Some(task) = self.hir.tasks[first..].iter_mut().find(|t| decl.name.is(&t.name)) {
                 task.single = task.single.take().or(single);
             }
+        }
+    }
+
+    /// All resources share one scheduler.
+    fn check_all_tasks(&mut self) {
+        let last = self.resources().into_iter().rev().flat_map(|r| r.tasks.last()).next();
+        if let Some(task) = last.filter(|_| self.hir.tasks.len() > MAX_TASKS) {
+            let help = format!("all resources together have at most {MAX_TASKS} tasks");
+            self.report(Diag::new(Code::BadTask, task.name.span, "too many tasks").help(help));
         }
     }
 

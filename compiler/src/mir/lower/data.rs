@@ -109,16 +109,22 @@ impl Data {
     pub fn place(&self, hir: &Hir, spot: &Spot) -> Option<ImagePlace> {
         let (root, offset) = match spot {
             Spot::Image(place) => return Some(*place),
-            Spot::Part(root, offset) => (root, *offset),
+            Spot::Part(root, offset) => (self.variable(hir, root), *offset),
         };
-        let covers = |m: &&Mirror| m.root == *root && m.offset <= offset && offset - m.offset < hir.types.layout(m.ty).size;
+        let covers = |m: &&Mirror| m.root == root && m.offset <= offset && offset - m.offset < hir.types.layout(m.ty).size;
         if let Some(m) = hir.mirrors.iter().find(covers) {
             return Some(behind(m.place, offset - m.offset));
         }
         match root {
-            Root::Global(g) => Some(behind(self.globals[*g], offset)),
-            program => Some(ImagePlace::Byte(self.program(hir, program)?.1 + offset)),
+            Root::Global(g) => Some(behind(self.globals[g], offset)),
+            program => Some(ImagePlace::Byte(self.program(hir, &program)?.1 + offset)),
         }
+    }
+
+    /// A program instance may be a variable (vendor).
+    fn variable(&self, hir: &Hir, root: &Root) -> Root {
+        let found = self.programs(hir).find(|(p, _)| p.root() == *root).and_then(|(p, _)| p.global);
+        found.map_or_else(|| root.clone(), Root::Global)
     }
 
     /// Bytes without a name behind all variables.
