@@ -112,6 +112,12 @@ impl Profile {
         self.is_codesys()
     }
 
+    /// The VAR_IN_OUT of a function block is a variable of the instance, copied in before a call and back after it; it may be read and
+    /// set from outside, and a call may leave it out.
+    pub const fn copies_in_outs(self) -> bool {
+        matches!(self, Profile::OpenPlc)
+    }
+
     /// CTU stops at PV and CTD at 0.
     pub const fn counters_stop_at_preset(self) -> bool {
         matches!(self, Profile::OpenPlc)

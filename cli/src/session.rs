@@ -46,6 +46,11 @@ pub fn compile(project: &Project) -> Result<Compilation, Problem> {
     Ok(driver::compile(to_compile(project)?))
 }
 
+/// Compiles without making machine code: all messages but the one of a unit too large for that.
+pub fn check(project: &Project) -> Result<Compilation, Problem> {
+    Ok(driver::compile(driver::Project { native: false, ..to_compile(project)? }))
+}
+
 /// What the compiler is given.
 fn to_compile(project: &Project) -> Result<driver::Project, Problem> {
     let machine = project::machine(&project.keys)?;

@@ -119,6 +119,7 @@ codes! {
     P3013 WriteToInputImage "the input image can't be written";
     P3014 RetainNotKept "retained values are not kept over a restart by this version" Warning;
     P3015 ReferenceKept "a reference can't be retained or located";
+    P3016 ConstantWithoutValue "a constant needs a value";
     P3040 MissingMethod "a method that the type promises is missing";
     P3041 SignatureMismatch "the method differs from the one that it replaces";
     P3042 MissingOverride "a method that replaces an inherited one needs OVERRIDE";

@@ -19,7 +19,7 @@ pub struct Args {
 }
 
 pub fn run(args: Args) -> Status {
-    let result = project::load(&args.project, args.profile.get()).and_then(|p| session::compile(&p));
+    let result = project::load(&args.project, args.profile.get()).and_then(|p| session::check(&p));
     let (diags, sources) = match result {
         Ok(compilation) => (compilation.diags, compilation.sources),
         Err(Problem::Diags(diags, sources)) => (diags, sources),

@@ -24,7 +24,7 @@ impl Builder<'_> {
     /// True if a call of this name is one of a variable: an instance, or a mistake.
     pub fn names_variable(&self, name: &ast::Name) -> bool {
         match (self.local(&name.key()), self.scope.pou) {
-            (Some(Local::Var(v)), Some(p)) => self.hir.pous[p].result != Some(v),
+            (Some(Local::Var(v)), Some(p)) => self.hir.pous[p].result != Some(v) && !self.calls_function_beside(name, p, v),
             (Some(_), _) => true,
             (None, _) if self.is_this(name) => true,
             (None, _) => {
@@ -57,6 +57,10 @@ impl Builder<'_> {
         let enable = self.enable(args, declared);
         let rest = enable.as_ref().map_or(args, |e| &e.rest);
         let given = self.match_arguments(id, rest, span)?;
+        let informal = rest.iter().any(|a| matches!(a, ast::Arg::Positional(_)));
+        if informal && !self.profile(span).is_vendor() && !self.all_inputs_given(id, &given, span) {
+            return None;
+        }
         let own = self.own_enable(&target.place, id, declared, span);
         let call = self.block_arguments(target.place, id, given, span)?;
         Some(match (enable, own) {
@@ -86,6 +90,14 @@ impl Builder<'_> {
                     fine = false;
                 }
                 (_, None) => {}
+                (Role::Input, Some(g)) if self.hir.pous[id].vars[var].copied_back => match self.in_out(id, var, g.expr()) {
+                    Some(target) => {
+                        let value = Expr { kind: ExprKind::Load(target.clone()), ty: target.ty, span: target.span };
+                        inputs.push((var, Arg::Value(value)));
+                        outputs.push(Output { var, target, negated: false, convert: None });
+                    }
+                    None => fine = false,
+                },
                 (Role::Input, Some(g)) => inputs.push((var, Arg::Value(self.input(id, var, g.expr())))),
                 (Role::InOut, Some(g)) => match self.in_out(id, var, g.expr()) {
                     Some(place) => inputs.push((var, Arg::Reference(place))),

@@ -76,6 +76,7 @@ impl Builder<'_> {
             storage: Storage::Local,
             init,
             keep: Keep::Unsaid,
+            copied_back: false,
             edge: None,
             span,
         };

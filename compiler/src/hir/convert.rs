@@ -218,6 +218,9 @@ impl Builder<'_> {
             ExprKind::Const(c) => constant::int(c).ok_or(Misfit::Type)?,
             _ => return Err(Misfit::Type),
         };
+        if self.is_codesys_null(&e) && matches!(self.ty(to), Type::Reference { .. }) {
+            return Ok(constant_expr(Const::Int(0), to, e.span));
+        }
         let target = self.number_of(to).ok_or(Misfit::Type)?;
         if target.is_real() {
             let real = constant::round(target, value as f64);

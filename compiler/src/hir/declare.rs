@@ -51,6 +51,9 @@ impl Builder<'_> {
         }
         self.hir.globals[id].ty = used.ty;
         self.check_kept_reference(used.ty, self.hir.globals[id].keep.is_kept(), decl.at.is_some(), decl.ty.span);
+        if self.hir.globals[id].constant {
+            self.check_constant_value(decl, used.ty, &used.default);
+        }
         let init = decl.init.as_ref().map_or_else(|| used.default.clone(), |i| self.initial(i, &used));
         let span = self.hir.globals[id].span;
         self.check_constant_instance(self.hir.globals[id].constant, used.ty, span);

@@ -115,6 +115,8 @@ pub struct Var {
     pub init: Const,
     /// RETAIN and its kin.
     pub keep: Keep,
+    /// A VAR_IN_OUT that is an input, copied back to the argument after the call (openplc).
+    pub copied_back: bool,
     /// R_EDGE or F_EDGE, with the hidden BOOL field that holds the previous value of the actual input.
     pub edge: Option<(Edge, VarId)>,
     /// Declaration.

@@ -51,6 +51,11 @@ impl Spaces {
         found
     }
 
+    /// True if `at` is in the namespace of what is declared at `declared`: INTERNAL may be used there.
+    pub(super) fn holds(&self, declared: Span, at: Span) -> bool {
+        self.path(self.at(at)).0.starts_with(self.path(self.at(declared)).0)
+    }
+
     fn path(&self, at: Option<usize>) -> (&str, &str) {
         at.map_or(("", ""), |i| (&self.list[i].path, &self.list[i].shown))
     }

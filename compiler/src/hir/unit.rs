@@ -85,8 +85,8 @@ impl Builder<'_> {
         init: Const,
     ) -> VarId {
         let init = if self.charge(constant::leaves(&init) - 1, name.span) { init } else { Const::Zero };
-        let var = Var { name: name.text.clone(), ty, role, storage, init, keep: Keep::Unsaid, edge: None, span: name.span };
-        self.hir.pous[id].vars.push(var)
+        let (name, span, keep) = (name.text.clone(), name.span, Keep::Unsaid);
+        self.hir.pous[id].vars.push(Var { name, ty, role, storage, init, keep, copied_back: false, edge: None, span })
     }
 
     fn declare_vars(&mut self, id: PouId, pou: &ast::Pou, section: &ast::VarSection, d: &ast::VarDecl) {
@@ -105,6 +105,9 @@ impl Builder<'_> {
         self.objects.abstract_allowed = outer;
         self.check_decl(pou, section, d, used.ty);
         self.check_kept_reference(used.ty, section.retain == Some(true), d.at.is_some(), d.ty.span);
+        if section.constant && section.kind == SectionKind::Var {
+            self.check_constant_value(d, used.ty, &used.default);
+        }
         let init = d.init.as_ref().map_or_else(|| used.default.clone(), |i| self.initial(i, &used));
         let used = TypeUse { default: init, ..used };
         let anonymous = d.names.is_empty().then(|| d.at.as_ref().map(super::image::name_of)).flatten();
@@ -122,7 +125,9 @@ impl Builder<'_> {
         name: &ast::Name,
         used: &TypeUse,
     ) {
+        let copied_back = section.kind == SectionKind::InOut && self.is_copied(pou, name.span, used.ty);
         let role = match section.kind {
+            SectionKind::InOut if copied_back => Role::Input,
             SectionKind::Input => Role::Input,
             SectionKind::Output => Role::Output,
             SectionKind::InOut => Role::InOut,
@@ -146,11 +151,12 @@ impl Builder<'_> {
         };
         self.push_var(id, name, used.ty, role, Storage::Local, init);
         self.hir.pous[id].vars[var].keep = Keep::of(section);
+        self.hir.pous[id].vars[var].copied_back = copied_back;
         if matches!(role, Role::Input | Role::Output | Role::InOut) {
             self.hir.pous[id].params.push(var);
         }
         let constant = section.constant && role != Role::Input;
-        if constant || role == Role::Input {
+        if constant || role == Role::Input && !copied_back {
             self.scope.read_only.insert(var, if constant { ReadOnly::Constant } else { ReadOnly::Input });
         }
         if let Some(edge) = d.edge {
@@ -218,6 +224,13 @@ impl Builder<'_> {
                 self.push_var(id, name, ty, Role::Temp, Storage::Local, Const::Zero);
             }
         }
+    }
+
+    /// A VAR_IN_OUT of this type is copied in and back. What has memory of its own, or any bounds, is always referred to.
+    fn is_copied(&self, pou: &ast::Pou, at: Span, ty: TypeId) -> bool {
+        let whole = |t: &Type| matches!(t, Type::Instance(_) | Type::Reference { .. });
+        let block = pou.kind == ast::PouKind::FunctionBlock;
+        block && self.profile(at).copies_in_outs() && !self.hir.types.holds(ty, whole) && self.open_parts(ty).is_none()
     }
 
     /// The instance: inputs, outputs, in-outs, variables, edge memory (§3.11).

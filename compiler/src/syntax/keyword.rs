@@ -130,6 +130,10 @@ impl Kw {
         use Kw::*;
         matches!(self, Action | Step | InitialStep | Transition | On | From | REdge | FEdge | Task | With | ReadOnly | ReadWrite)
     }
+    /// Types that came with edition 3, whose names CODESYS programs use for their own members.
+    pub(crate) fn is_new_type(self) -> bool {
+        matches!(self, Kw::Ldate | Kw::Ltod | Kw::Ldt | Kw::Char | Kw::Wchar)
+    }
     /// True if it can't be a name in profile `std`.
     pub(crate) fn is_reserved(self) -> bool {
         self.class() != Class::Free

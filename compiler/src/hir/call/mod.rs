@@ -96,17 +96,31 @@ impl Builder<'_> {
 
     /// True if a call of this name is one of a function. The result variable of a function shares its name.
     fn names_function(&self, name: &ast::Name) -> bool {
-        let own_result = match (self.local(&name.key()), self.scope.pou) {
-            (Some(Local::Var(v)), Some(p)) => self.hir.pous[p].result == Some(v),
+        let free = match (self.local(&name.key()), self.scope.pou) {
+            (Some(Local::Var(v)), Some(p)) => self.hir.pous[p].result == Some(v) || self.is_data(p, v),
             (Some(_), _) => false,
             (None, _) => true,
         };
-        let known = match self.unit(name) {
+        free && self.knows_function(name)
+    }
+
+    fn knows_function(&self, name: &ast::Name) -> bool {
+        match self.unit(name) {
             Some((Unit::Pou(id), _)) => self.hir.pous[id].kind == PouKind::Function,
             Some((Unit::Type(_), _)) => false,
             None => takt_stdlib::lookup(&name.text).is_some(),
-        };
-        own_result && known
+        }
+    }
+
+    /// Numbers and texts can't be called, so that a variable `limit` and LIMIT() go together.
+    fn is_data(&self, pou: PouId, var: VarId) -> bool {
+        let ty = self.hir.pous[pou].vars[var].ty;
+        self.hir.types.storage(ty).is_some() && self.pointee(ty).is_none() || self.is_string(ty)
+    }
+
+    /// True if a function is called although a local variable has its name.
+    pub(in crate::hir) fn calls_function_beside(&self, name: &ast::Name, pou: PouId, var: VarId) -> bool {
+        self.is_data(pou, var) && self.knows_function(name)
     }
 
     fn not_a_function(&mut self, name: &ast::Name) {

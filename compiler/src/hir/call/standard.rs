@@ -99,6 +99,8 @@ impl Builder<'_> {
             Found::Function { function, .. } => {
                 let fixed = function.params.iter().position(|p| formal.is(p.name));
                 let fixed = fixed.or_else(|| edition_2(function, formal));
+                let fixed =
+                    fixed.or_else(|| self.profile(formal.span).is_codesys().then(|| codesys_pin(function, formal)).flatten());
                 fixed.or_else(|| function.extensible.then(|| counted(function, formal)).flatten())
             }
         };
@@ -452,6 +454,20 @@ fn arity(found: Found) -> (usize, usize) {
 fn edition_2(f: &Function, formal: &ast::Name) -> Option<usize> {
     let names = ["IN1", "IN2"];
     names.iter().position(|name| formal.is(name)).filter(|_| f.name.starts_with("CONCAT_DATE_"))
+}
+
+/// The inputs of string functions as CODESYS calls them.
+fn codesys_pin(f: &Function, formal: &ast::Name) -> Option<usize> {
+    let names: &[&str] = match f.name {
+        "LEN" => &["STR"],
+        "LEFT" | "RIGHT" => &["STR", "SIZE"],
+        "MID" | "DELETE" => &["STR", "LEN", "POS"],
+        "CONCAT" | "FIND" => &["STR1", "STR2"],
+        "INSERT" => &["STR1", "STR2", "POS"],
+        "REPLACE" => &["STR1", "STR2", "L", "P"],
+        _ => return None,
+    };
+    names.iter().position(|name| formal.is(name))
 }
 
 /// Position of IN3, IN4, ... behind the parameters that are listed.

@@ -40,7 +40,7 @@ impl Builder<'_> {
     }
 
     /// An informal call gives every input.
-    fn all_inputs_given(&mut self, id: PouId, given: &[Option<Given>], span: Span) -> bool {
+    pub(in crate::hir) fn all_inputs_given(&mut self, id: PouId, given: &[Option<Given>], span: Span) -> bool {
         let pou = &self.hir.pous[id];
         let own = self.declared_enable(id).en;
         let missing =

@@ -1,8 +1,10 @@
 //! Which variable sections, qualifiers and addresses a unit may have (§3.1 to §3.4).
 
 use crate::hir::builder::Builder;
+use crate::hir::constant;
+use crate::hir::model::Const;
 use crate::syntax::ast::{self, PouKind, SectionKind};
-use takt_base::{Code, Diag, Span};
+use takt_base::{Code, Diag, Severity, Span};
 use takt_image::types::Type;
 use takt_image::{Elementary, TypeId};
 
@@ -19,6 +21,9 @@ impl Builder<'_> {
         if (section.retain.is_some() || section.persistent) && (function || !kept) {
             let help = "RETAIN belongs to VAR, VAR_INPUT and VAR_OUTPUT of function blocks and programs, and to VAR_GLOBAL";
             self.report(Diag::new(Code::SectionNotAllowed, section.span, "nothing here is kept between calls").help(help));
+        }
+        if section.constant && (section.retain.is_some() || section.persistent) && !self.profile(section.span).is_vendor() {
+            self.error(Code::SectionNotAllowed, section.span, "what is CONSTANT never changes, so nothing is retained");
         }
         let output = section.kind == SectionKind::Output && !self.profile(section.span).is_codesys();
         if section.constant && (section.kind == SectionKind::InOut || output) {
@@ -79,6 +84,16 @@ impl Builder<'_> {
             self.report(Diag::new(Code::SectionNotAllowed, span, label).help(help));
         }
         self.check_constant_instance(section.constant, ty, span);
+    }
+
+    /// A constant that is declared without a value, of a type that has none either.
+    pub fn check_constant_value(&mut self, d: &ast::VarDecl, ty: TypeId, default: &Const) {
+        if ty == self.error || self.holds_instance(ty) || d.init.is_some() || d.at.is_some() || !constant::is_zero(default) {
+            return;
+        }
+        let severity = if self.profile(d.span).is_vendor() { Severity::Warning } else { Severity::Error };
+        let diag = Diag::new(Code::ConstantWithoutValue, d.span, "would be zero for ever").severity(severity);
+        self.report(diag.help("write `:= value` behind the type"));
     }
 
     /// A function block is never constant.

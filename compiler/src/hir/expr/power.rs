@@ -1,4 +1,5 @@
-//! `**` and EXPT (§5.3): a real base; an integer base is computed in LREAL, or in REAL where that is wanted.
+//! `**` and EXPT (§5.3): a real base; an integer base is computed in LREAL, or in REAL where that is wanted. Two integers where an
+//! integer is wanted give that.
 
 use crate::hir::builder::Builder;
 use crate::hir::constant;
@@ -22,9 +23,18 @@ impl Builder<'_> {
         let Some(base_type) = self.power_base(&a, want) else {
             return self.bad_operand("**", a.expr.ty, span, "the base is a real number");
         };
+        let whole = self.is_integer(&a) && self.is_integer(&b);
         let base = self.raise_base(a, base_type);
         let Some(exponent) = self.exponent(b, base_type) else { return self.bad(span) };
-        self.intrinsic(Intrinsic::Expt, vec![base, exponent], base_type, span)
+        let power = self.intrinsic(Intrinsic::Expt, vec![base, exponent], base_type, span);
+        match want.filter(|w| whole && self.elementary(*w).is_some_and(Elementary::is_int)) {
+            Some(wanted) => Operand::fixed(self.wrap(Conversion::RealToInt, power.expr, wanted)),
+            None => power,
+        }
+    }
+
+    fn is_integer(&self, o: &Operand) -> bool {
+        self.elementary(o.expr.ty).is_some_and(Elementary::is_int)
     }
 
     fn power_base(&mut self, a: &Operand, want: Option<TypeId>) -> Option<TypeId> {

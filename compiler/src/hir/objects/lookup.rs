@@ -5,7 +5,7 @@ use crate::hir::builder::Builder;
 use crate::hir::model::*;
 use crate::syntax::ast::{AccessSpec, Accessor, Name};
 use std::collections::HashSet;
-use takt_base::{Code, Diag};
+use takt_base::{Code, Diag, Span};
 use takt_image::TypeId;
 use takt_image::types::Type;
 
@@ -111,9 +111,10 @@ impl Builder<'_> {
     }
 
     /// True if the running unit may use what `owner` declares with this access.
-    pub(super) fn may_use(&self, access: AccessSpec, owner: PouId) -> bool {
+    pub(super) fn may_use(&self, access: AccessSpec, owner: PouId, at: Span) -> bool {
         match access {
-            AccessSpec::Public | AccessSpec::Internal => true,
+            AccessSpec::Public => true,
+            AccessSpec::Internal => self.symbols.spaces.holds(self.symbols.pous[owner].decl.name.span, at),
             AccessSpec::Private => self.own_type() == Some(owner),
             AccessSpec::Protected => self.own_type().is_some_and(|mine| self.line(mine).contains(&owner)),
         }
@@ -122,9 +123,9 @@ impl Builder<'_> {
     /// False and a report if a method may not be called from here.
     pub(super) fn check_method_access(&mut self, method: PouId, name: &Name) -> bool {
         let (access, written) = self.method_access(method);
-        let Some(owner) = self.hir.pous[method].owner.filter(|o| !self.may_use(access, *o)) else { return true };
+        let Some(owner) = self.hir.pous[method].owner.filter(|o| !self.may_use(access, *o, name.span)) else { return true };
         let at = self.symbols.pous[method].decl.name.span;
-        let word = if access == AccessSpec::Private { "PRIVATE" } else { "PROTECTED" };
+        let word = access_word(access);
         let owner = self.hir.pous[owner].name.clone();
         let diag = if written {
             Diag::new(Code::AccessDenied, name.span, format!("{word} in `{owner}`")).help("write PUBLIC if everybody may call it")
@@ -136,5 +137,15 @@ impl Builder<'_> {
         };
         self.report(diag.also(at, "declared"));
         !written
+    }
+}
+
+/// As it is written.
+pub(super) fn access_word(access: AccessSpec) -> &'static str {
+    match access {
+        AccessSpec::Public => "PUBLIC",
+        AccessSpec::Internal => "INTERNAL",
+        AccessSpec::Protected => "PROTECTED",
+        AccessSpec::Private => "PRIVATE",
     }
 }

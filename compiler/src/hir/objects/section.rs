@@ -49,10 +49,10 @@ impl Builder<'_> {
             self.check_default_access(ty, field, name, pou);
             return true;
         };
-        if self.may_use(access, owner) {
+        if self.may_use(access, owner, name.span) {
             return true;
         }
-        let word = if access == AccessSpec::Private { "PRIVATE" } else { "PROTECTED" };
+        let word = super::lookup::access_word(access);
         let label = format!("{word} in `{}`", self.hir.pous[owner].name);
         let help = "add a method or property that reads it, or write VAR PUBLIC";
         self.report(Diag::new(Code::AccessDenied, name.span, label).also(at, "declared").help(help));
@@ -64,7 +64,7 @@ impl Builder<'_> {
         let Type::Instance(record) = self.ty(ty) else { return };
         let is_var = record.fields.get(field).is_some_and(|f| f.section == Section::Var);
         let class = self.hir.pous[pou].kind == PouKind::Class;
-        if !is_var || !class || self.profile(name.span).is_vendor() || self.may_use(AccessSpec::Protected, pou) {
+        if !is_var || !class || self.profile(name.span).is_vendor() || self.may_use(AccessSpec::Protected, pou, name.span) {
             return;
         }
         let label = "PROTECTED, because nothing is written there";

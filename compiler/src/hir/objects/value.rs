@@ -5,8 +5,8 @@ use crate::hir::convert::{Operand, constant_expr};
 use crate::hir::model::*;
 use crate::syntax::ast::{self, BinaryOp};
 use takt_base::{Code, Diag, Span};
-use takt_image::TypeId;
 use takt_image::types::Type;
+use takt_image::{Elementary, TypeId};
 
 impl Builder<'_> {
     /// The type of NULL beside interfaces.
@@ -29,6 +29,12 @@ impl Builder<'_> {
             return Some(self.bad(e.span).expr);
         }
         self.reference_to(e, to)
+    }
+
+    /// CODESYS writes 0 for NULL.
+    pub(in crate::hir) fn is_codesys_null(&self, e: &Expr) -> bool {
+        let zero = matches!(e.kind, ExprKind::Const(Const::Int(0))) && self.elementary(e.ty).is_some_and(Elementary::is_int);
+        zero && self.profile(e.span).is_codesys()
     }
 
     fn does_not_implement(&mut self, from: PouId, wanted: PouId, span: Span) {
@@ -77,6 +83,7 @@ impl Builder<'_> {
         let ty = if ra && a.expr.ty != null { a.expr.ty } else { b.expr.ty };
         let side = |x: &mut Self, o: &Operand| match is_reference(x, o.expr.ty) {
             true => Some(Expr { ty, ..o.expr.clone() }),
+            false if x.is_codesys_null(&o.expr) => Some(constant_expr(Const::Int(0), ty, o.expr.span)),
             false if matches!(x.ty(o.expr.ty), Type::Instance(_)) && x.type_unit(ty).is_some() => x.interface_value(&o.expr, ty),
             false => None,
         };

@@ -146,8 +146,8 @@ fn power() {
             ("t ** 2", "P2003"),
         ],
     );
-    accept(stmt, &["r := i ** 2;", "r := r ** r;", "vLREAL := i ** j;", "i := 2 ** 4;"]);
-    expect(stmt, &[("r := vDINT ** 2;", "P2007 4:6"), ("i := i ** 2;", "P2007 4:6")]);
+    accept(stmt, &["r := i ** 2;", "r := r ** r;", "vLREAL := i ** j;", "i := 2 ** 4;", "i := i ** 2;", "i := -(i ** j);"]);
+    expect(stmt, &[("r := vDINT ** 2;", "P2007 4:6"), ("i := i ** r;", "P2007 4:6")]);
 }
 
 /// Library reference §8.1.

@@ -96,7 +96,7 @@ fn bits() {
 #[test]
 fn elements_of_constants_fold() {
     let vars = "x : ARRAY[0..k[1]] OF INT := [1, 2, 3];";
-    let constants = "VAR_GLOBAL CONSTANT k : ARRAY[0..1] OF INT := [5, 2]; z : ARRAY[0..1] OF INT; END_VAR";
+    let constants = "VAR_GLOBAL CONSTANT k : ARRAY[0..1] OF INT := [5, 2]; z : ARRAY[0..1] OF INT := [2(0)]; END_VAR";
     assert_eq!(check_in(constants, vars, ""), "P1008 2:14");
     assert_eq!(check_in(constants, "x : INT := z[1] + k[0];", ""), "P1008 2:12, P1008 2:19");
 }

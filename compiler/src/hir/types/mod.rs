@@ -199,7 +199,7 @@ impl Builder<'_> {
         if ty == self.error {
             return None;
         }
-        let found = self.elementary(ty).filter(|e| e.is_int());
+        let found = self.elementary(ty).filter(|e| e.is_int() || e.is_bit() && self.profile(base.span).mixes_bits_and_integers());
         if found.is_none() {
             let label = self.show(ty);
             self.report(Diag::new(Code::BadOperand, base.span, label).message("a subrange needs an integer type"));

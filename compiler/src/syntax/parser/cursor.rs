@@ -261,7 +261,8 @@ impl<'a> Parser<'a> {
     }
     fn keyword_as_name(&mut self, what: &str) {
         let token = self.peek();
-        let is_free = token.kw.is_name_elsewhere() && self.profile.is_vendor();
+        let is_free =
+            token.kw.is_name_elsewhere() && self.profile.is_vendor() || token.kw.is_new_type() && self.profile.is_codesys();
         if self.named.insert(token.kw as u8) && !is_free {
             let text = self.text_of(token);
             let kind = if token.kw.is_type() { "a type of the standard" } else { "a keyword" };

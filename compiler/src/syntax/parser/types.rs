@@ -49,10 +49,15 @@ impl Parser<'_> {
             self.type_body()
         };
         let init = self.optional_init();
-        if !self.lost && !self.eat(Tok::Semi) && !matches!(self.prev().kw, Kw::EndStruct | Kw::EndUnion) {
+        if !self.lost && !self.eat(Tok::Semi) && !self.ends_type_decl() {
             self.missing_semicolon("this type");
         }
         Some(TypeDecl { name, extends, body, init })
+    }
+
+    /// Where the semicolon behind a type may be left out: behind END_STRUCT and END_UNION, and before END_TYPE (§3.9).
+    fn ends_type_decl(&self) -> bool {
+        matches!(self.prev().kw, Kw::EndStruct | Kw::EndUnion) || self.kw() == Kw::EndType
     }
 
     /// `EXTENDS name` of a structure (vendor).

@@ -134,7 +134,7 @@ fn types_and_configurations() {
     finds("TYPE a : STRUCT x INT; y : INT; END_STRUCT; END_TYPE", &["P0010 1:19"]);
     finds("TYPE a : (X, , Y); END_TYPE", &["P0010 1:14"]);
     finds("TYPE a : INT;\n", &["P0010 3:1"]);
-    finds("TYPE a : INT := 5 END_TYPE", &["P0010 1:18"]);
+    finds("TYPE a : INT := 5 END_TYPE", &[]);
     finds("CONFIGURATION c RESOURCE r ON x PROGRAM p : m; END_CONFIGURATION", &["P0010 1:48"]);
     finds("CONFIGURATION c TASK t(FREQ := 1); PROGRAM p : m; END_CONFIGURATION", &["P0010 1:24"]);
     finds("CONFIGURATION c TASK t; PROGRAM p : m; END_CONFIGURATION", &["P0010 1:23"]);
