@@ -37,10 +37,11 @@ fn s10_1_single_is_an_output_of_a_program() {
         "TASK fast (INTERVAL := T#2ms, PRIORITY := 2); TASK ev (SINGLE := l.y); PROGRAM l WITH fast : L; PROGRAM b WITH ev : P;";
     let got = timed(&plant(&format!("{P} {located}"), "g : INT;", inner), &[], &["b.n"], 4);
     assert_eq!(got, ["fast@0 0", "ev@0 1", "fast@2 1"]);
-    for (single, want) in [("a.n", "P4003"), ("a.zz", "P3081"), ("b.q", "P1003"), ("g", "P4003"), ("TRUE", "P1010")] {
+    for (single, want) in
+        [("a.n", "P4003"), ("a.zz", "P3081"), ("b.q", "P1003"), ("g", "P4003"), ("TRUE", "P4003"), ("FALSE", "P4003")]
+    {
         let inner = format!("TASK t (SINGLE := {single}); PROGRAM a WITH t : P;");
-        let got = codes(&plant(P, "g : INT;", &inner));
-        assert!(got == [want] || single == "TRUE" && got.len() == 1, "{single}: {got:?}");
+        assert_eq!(codes(&plant(P, "g : INT;", &inner)), [want], "{single}");
     }
 }
 
@@ -60,6 +61,8 @@ fn s10_1_parameters_in_any_order_and_constant_intervals() {
         "TASK t (PRIORITY := prio, INTERVAL := k * 2); PROGRAM p WITH t : P;",
     );
     assert_eq!(timed(&text, &[], &["p.n"], 9), ["t@0 1", "t@4 2", "t@8 3"]);
+    let never = plant(P, "g : INT;", "TASK t (SINGLE := FALSE, INTERVAL := T#4ms); PROGRAM p WITH t : P;");
+    assert_eq!(timed(&never, &[], &["p.n"], 5), ["t@0 1", "t@4 2"], "FALSE is as good as none");
     let variable = plant(P, "k : TIME := T#2ms;", "TASK t (INTERVAL := k); PROGRAM p WITH t : P;");
     assert_eq!(codes(&variable), ["P2005"], "a period is a constant");
     let multi = plant(P, "a : BOOL; b : BOOL;", "TASK t (MULTI := [a, b], PRIORITY := 1); PROGRAM p WITH t : P;");

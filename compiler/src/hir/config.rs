@@ -112,7 +112,7 @@ impl<'a> Builder<'a> {
     fn task(&mut self, decl: &ast::TaskDecl, resource: u32) -> Task {
         let interval = decl.interval.as_ref().map_or(Some(Nanos::ZERO), |e| self.interval(e));
         let priority = decl.priority.as_ref().map_or(0, |e| self.priority(e));
-        if interval == Some(Nanos::ZERO) && decl.single.is_none() {
+        if interval == Some(Nanos::ZERO) && decl.single.as_ref().is_none_or(|e| fixed_level(e) == Some(false)) {
             let help = "give it a period, INTERVAL := T#10ms, or a trigger, SINGLE := variable";
             self.report(Diag::new(Code::BadTask, decl.name.span, "nothing ever starts it").help(help));
         }
@@ -144,6 +144,12 @@ impl<'a> Builder<'a> {
     fn trigger(&mut self, e: &ast::Expr, resource: u32) -> Option<Spot> {
         let bool = self.bool();
         let help = "a rising edge of this variable starts the task";
+        if let Some(level) = fixed_level(e) {
+            if level {
+                self.report(Diag::new(Code::BadTask, e.span, "never rises").help("name a variable, or leave SINGLE out"));
+            }
+            return None;
+        }
         if let Some(found) = self.program_variable(e, resource) {
             let found = found?;
             if found.ty != bool {
@@ -206,6 +212,14 @@ impl<'a> Builder<'a> {
             self.hir.tasks.len() - 1
         });
         self.hir.tasks[at].programs.push(program);
+    }
+}
+
+/// The value of a SINGLE that is a literal: FALSE is as good as none.
+fn fixed_level(e: &ast::Expr) -> Option<bool> {
+    match e.kind {
+        ast::ExprKind::Literal(ast::Literal::Bool(level)) => Some(level),
+        _ => None,
     }
 }
 
