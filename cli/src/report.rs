@@ -65,6 +65,9 @@ fn channel(c: &ChannelReport, axes: &[&AxisReport], deviation_mm: f64) -> String
         }
         Some(p) => out += &pulses(p),
     }
+    if c.late_ticks > 0 {
+        let _ = writeln!(out, "  the plan came late: the path braked or stood in {} ticks", c.late_ticks);
+    }
     if let Some(e) = &c.error {
         let _ = writeln!(out, "  {}: {} (line {}, column {})", e.code.text(), e.text, e.line, e.column);
     }
@@ -116,4 +119,30 @@ pub fn write_trace(path: &Path, trace: &Trace, config: &MachineConfig) -> Result
         eprintln!("warning: the trace is full; {} ends before the run", path.display());
     }
     project::write(path, out.as_bytes())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use takt_motion::channel::CncState;
+
+    #[test]
+    fn late_ticks_are_told_when_there_are_some() {
+        let mut report = ChannelReport {
+            name: "mill".into(),
+            state: CncState::Ready,
+            blocks: 3,
+            feed_mm: 12.5,
+            late_ticks: 0,
+            line: 0,
+            part_count: 1,
+            error: None,
+            pulses: None,
+        };
+        let on_time = channel(&report, &[], 0.0);
+        assert_eq!(on_time.lines().count(), 1, "{on_time}");
+        report.late_ticks = 7;
+        let late = channel(&report, &[], 0.0);
+        assert_eq!(late, format!("{on_time}  the plan came late: the path braked or stood in 7 ticks\n"));
+    }
 }

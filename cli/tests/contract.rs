@@ -208,3 +208,40 @@ fn gcode_prints_checks_plans_and_draws() {
     let trace = fs::read_to_string(dir.join("plate.csv")).unwrap();
     assert!(trace.starts_with("time_s,X,Y\n") && trace.trim_end().ends_with(",20.000000000,30.000000000"));
 }
+
+/// IEC 61131-3 reference §3.8: access paths are paths like any other; one that is READ_ONLY takes no values.
+#[test]
+fn access_paths_are_watched_set_and_dumped() {
+    let text = "PROGRAM Main VAR n, m : INT; END_VAR n := n + 1; END_PROGRAM
+    CONFIGURATION c RESOURCE r ON PLC TASK t (INTERVAL := T#10ms); PROGRAM p WITH t : Main; END_RESOURCE
+    VAR_ACCESS Count : r.p.n : INT READ_WRITE; Shown : p.n : INT READ_ONLY; Door : r.%IX0.3 : BOOL; END_VAR END_CONFIGURATION";
+    let path = file("access", "plant.st", text);
+    let ran = takt(&["sim", &path, "--scans", "3", "--set", "COUNT=40@2", "--watch", "count,Shown,Door,p.n"]);
+    assert_eq!(ran.json()["vars"], json!({"Count": 42, "Shown": 42, "Door": false, "p.n": 42}));
+    let dump = takt(&["sim", &path, "--scans", "1", "--dump"]).json();
+    assert_eq!(dump["vars"], json!({"p.n": 1, "p.m": 0, "Count": 1, "Shown": 1, "Door": false}));
+    let ran = takt(&["sim", &path, "--set", "Shown=5@1"]);
+    let told = ["error[C0009]", "`Shown` can't be written: VAR_ACCESS declares it READ_ONLY", "declare it READ_WRITE"];
+    assert!(ran.status == 1 && told.iter().all(|t| ran.stderr.contains(t)), "{}", ran.stderr);
+    let ran = takt(&["check", &file("access_wrong", "plant.st", text.replace("p.n : INT READ_ONLY", "p.zz : INT"))]);
+    assert!(ran.status == 1 && ran.stderr.contains("P3081"), "{}", ran.stderr);
+}
+
+/// §10.1: with several resources paths begin with their names, in the state, in the report of faults and in the tests of a project.
+#[test]
+fn several_resources() {
+    let text = "PROGRAM Main VAR n, d : INT; END_VAR VAR_EXTERNAL g : INT; END_VAR n := n + g; d := 6 / (3 - n); END_PROGRAM
+    CONFIGURATION c RESOURCE A ON PLC VAR_GLOBAL g : INT := 1; END_VAR TASK t (INTERVAL := T#10ms); PROGRAM p WITH t : Main; END_RESOURCE
+    RESOURCE B ON PLC VAR_GLOBAL g : INT := 10; END_VAR TASK t (INTERVAL := T#20ms); PROGRAM p WITH t : Main; END_RESOURCE END_CONFIGURATION";
+    let path = file("resources", "plant.st", text);
+    for engine in ["native", "interp"] {
+        let ran = takt(&["sim", &path, "--scans", "3", "--engine", engine]);
+        let vars = json!({"A.g": 1, "B.g": 10, "A.p.n": 2, "A.p.d": 6, "B.p.n": 10, "B.p.d": 0});
+        assert_eq!(ran.json()["vars"], vars, "{}", ran.stderr);
+    }
+    let ran = takt(&["sim", &path, "--scans", "9", "--watch", "A.p.n"]);
+    assert_eq!((ran.status, &ran.json()["fault"]["task"], &ran.json()["vars"]["A.p.n"]), (3, &json!("A.t"), &json!(3)));
+    let tested = format!("{text} {{test}} PROGRAM Works VAR_EXTERNAL g : INT; END_VAR ASSERT_EQ(g, 1); END_PROGRAM");
+    let ran = takt(&["test", &file("resources_tested", "plant.st", tested)]);
+    assert_eq!(ran.status, 0, "{ran:?}");
+}

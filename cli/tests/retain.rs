@@ -243,3 +243,53 @@ fn f0008_a_file_that_cant_be_written_is_a_message() {
     let ran = takt(&["run", &project.display().to_string(), "--duration", "50ms"]);
     assert!(ran.status == 0 && ran.stderr.contains("warning[F0008]"), "{ran:?}");
 }
+
+/// §10.4: PROGRAM RETAIN keeps everything in the instance, PROGRAM NON_RETAIN nothing that does not say so itself; with several
+/// resources each path is kept for itself.
+#[test]
+fn s10_4_program_retain_and_resources() {
+    let text = "FUNCTION_BLOCK F VAR n : INT; END_VAR VAR NON_RETAIN z : INT; END_VAR n := n + 1; z := z + 1; END_FUNCTION_BLOCK
+    PROGRAM Main VAR a : INT; f : F; END_VAR VAR RETAIN r : INT; END_VAR a := a + 1; r := r + 1; f(); END_PROGRAM
+    CONFIGURATION c RESOURCE A ON PLC TASK t (INTERVAL := T#10ms); PROGRAM RETAIN p WITH t : Main; END_RESOURCE
+    RESOURCE B ON PLC TASK t (INTERVAL := T#10ms); PROGRAM NON_RETAIN p WITH t : Main; PROGRAM q WITH t : Main; END_RESOURCE END_CONFIGURATION";
+    let program = file("s10_4_program", "main.st", text);
+    let stored = folder("s10_4_program_file").join("retain");
+    let names = ["A.p.a", "A.p.r", "B.p.a", "B.p.r", "B.q.a", "B.q.r"];
+    let members = ["A.p.f", "B.p.f", "B.q.f"];
+    let both = |ran: &Ran| {
+        let vars = vars(ran);
+        let part = |m: &str, n: &str| vars[m][n].as_i64().unwrap();
+        (ints(ran, &names), members.map(|m| (part(m, "n"), part(m, "z"))))
+    };
+    let two = ["--scans", "2"];
+    assert_eq!(both(&sim(&program, &stored, &two)), (vec![1; 6], [(1, 1); 3]));
+    let warm = both(&sim(&program, &stored, &two));
+    assert_eq!(warm, (vec![2, 2, 1, 2, 1, 2], [(2, 1), (1, 1), (1, 1)]), "warm");
+    let cold = both(&sim(&program, &stored, &["--scans", "2", "--cold"]));
+    assert_eq!(cold, (vec![1; 6], [(1, 1); 3]), "cold");
+}
+
+/// A vendor's program that is a variable by its name, with a value and an address from VAR_CONFIG, in PROGRAM RETAIN: one instance.
+#[test]
+fn s4_3_a_shared_program_is_configured_and_retained() {
+    let text = "PROGRAM Sub VAR_INPUT add : INT; END_VAR VAR n : INT := 1; lamp AT %Q* : INT := 5; seen : INT; END_VAR VAR NON_RETAIN z : INT := 2; END_VAR
+    n := n + 1 + add; z := z + 1; seen := lamp; lamp := n; END_PROGRAM
+    PROGRAM Main VAR a, b, c : INT; END_VAR a := Sub.n; Sub.add := 10; b := Sub.z; c := Sub.lamp; END_PROGRAM
+    CONFIGURATION c RESOURCE r ON PLC TASK t (INTERVAL := T#10ms); PROGRAM RETAIN s WITH t : Sub; PROGRAM m WITH t : Main; END_RESOURCE
+    VAR_ACCESS Lamp : r.s.lamp : INT READ_WRITE; N : s.n : INT; END_VAR
+    VAR_CONFIG s.n : INT := 20; r.s.lamp AT %QW3 : INT := 7; s.z : INT := 3; END_VAR END_CONFIGURATION";
+    let program = file("s4_3_shared", "main.st", text);
+    let stored = folder("s4_3_shared_file").join("retain");
+    let names = ["s.n", "s.z", "s.seen", "s.lamp", "m.a", "m.b", "m.c", "Lamp", "N"];
+    let watched = names.join(",") + ",%QW3";
+    let run = |more: &[&str]| {
+        let args = [&["--scans", "1", "--profile", "codesys", "--watch", &watched][..], more].concat();
+        let ran = sim(&program, &stored, &args);
+        (ints(&ran, &names), vars(&ran)["%QW3"].as_i64().unwrap())
+    };
+    assert_eq!(run(&[]), (vec![21, 4, 7, 21, 21, 4, 21, 21, 21], 21), "first");
+    assert_eq!(run(&["--engine", "interp"]), (vec![32, 4, 21, 32, 32, 4, 32, 32, 32], 32), "warm: all but z is kept");
+    assert_eq!(run(&["--cold"]), (vec![21, 4, 7, 21, 21, 4, 21, 21, 21], 21), "cold");
+    // A write through the access path is one of the address.
+    assert_eq!(run(&["--cold", "--set", "Lamp=99@1"]), (vec![21, 4, 99, 21, 21, 4, 21, 21, 21], 21));
+}

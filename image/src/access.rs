@@ -22,6 +22,11 @@ impl AccessError {
     pub(crate) fn value(message: impl Into<String>) -> Self {
         Self { code: Code::BadValueText, message: message.into(), help: None }
     }
+    /// The path may be read alone.
+    pub(crate) fn read_only(path: &str) -> Self {
+        let message = format!("`{path}` can't be written: VAR_ACCESS declares it READ_ONLY");
+        Self { code: Code::ReadOnlyPath, message, help: None }
+    }
     /// Says what to do.
     pub(crate) fn help(self, help: impl Into<String>) -> Self {
         Self { help: Some(help.into()), ..self }

@@ -2,7 +2,7 @@
 //! Invariant: never panics, and takes no more memory than a small multiple of the input.
 
 use crate::elementary::Elementary;
-use crate::encode::{ENVELOPE, ImageError, MAGIC, NO_RESULT, SCALARS, SECTIONS, TARGETS, VERSION};
+use crate::encode::{ACCESS, ENVELOPE, ImageError, MAGIC, NO_RESULT, SCALARS, SECTIONS, TARGETS, VERSION};
 use crate::image::{Chunk, Function, Image, LineSite, Place, Program, Retained, Symbol, Task, TrapSite};
 use crate::memory::MemoryMap;
 use crate::natives::{NativeImport, NativeKind, Scalar};
@@ -177,8 +177,9 @@ impl<'a> Reader<'a> {
     }
 
     fn symbol(&mut self) -> Read<Symbol> {
-        let (name, ty, place, bits) = (self.text()?, TypeId(self.u32()?), self.place()?, self.flags()?);
-        Ok(Symbol { name, ty, place, constant: bits & 1 != 0, retain: bits & 2 != 0 })
+        let (name, ty, place, bits) = (self.text()?, TypeId(self.u32()?), self.place()?, self.u8()?);
+        let access = self.choice(usize::from(bits >> 2), &ACCESS, "access path")?;
+        Ok(Symbol { name, ty, place, constant: bits & 1 != 0, retain: bits & 2 != 0, access })
     }
 
     /// Two flags in a byte.

@@ -3,7 +3,7 @@
 //! Invariant: `decode(encode(image)) == image` for every image that [`crate::validate`] accepts, and any other bytes give an error
 //! with a reason. Every count is checked against the bytes that are left before memory is taken.
 
-use crate::image::{Image, Place, Target, Task};
+use crate::image::{Access, Image, Place, Target, Task};
 use crate::natives::{NativeKind, Scalar};
 use crate::types::{Field, Record, Section, Type};
 use takt_base::{Code, Nanos};
@@ -13,7 +13,7 @@ pub use crate::decode::decode;
 /// First bytes of an image file.
 pub const MAGIC: [u8; 8] = *b"TAKTIMG\n";
 /// Version of the format. A reader takes its own version alone.
-pub const VERSION: u32 = 2;
+pub const VERSION: u32 = 3;
 /// Bytes before the payload: magic, version, payload length, CRC-32C of the payload.
 pub(crate) const ENVELOPE: usize = 8 + 4 + 4 + 4;
 
@@ -105,7 +105,8 @@ impl Writer {
             w.text(&s.name);
             w.u32(s.ty.0);
             w.place(s.place);
-            w.u8(u8::from(s.constant) | u8::from(s.retain) << 1);
+            let access = ACCESS.iter().position(|a| *a == s.access).unwrap_or(0) as u8;
+            w.u8(u8::from(s.constant) | u8::from(s.retain) << 1 | access << 2);
         });
         self.list(&image.natives, |w, n| {
             w.text(&n.name);
@@ -242,5 +243,7 @@ pub(crate) const NO_RESULT: u8 = 0xFF;
 pub(crate) const SCALARS: [Scalar; 6] = [Scalar::I8, Scalar::I16, Scalar::I32, Scalar::I64, Scalar::F32, Scalar::F64];
 /// Sections by their number in the file.
 pub(crate) const SECTIONS: [Section; 5] = [Section::Var, Section::Input, Section::Output, Section::InOut, Section::Hidden];
+/// Directions of access paths by their number in the file.
+pub(crate) const ACCESS: [Option<Access>; 3] = [None, Some(Access::ReadOnly), Some(Access::ReadWrite)];
 /// Targets by their number in the file.
 pub(crate) const TARGETS: [Target; 2] = [Target::None, Target::X86_64V2];

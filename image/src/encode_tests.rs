@@ -26,7 +26,9 @@ pub(crate) fn sample() -> Image {
     let pump = t.record("Pump", members.into_iter().chain([m("light", light, Section::Var), m("edge", bool_, Section::Hidden)]));
     let pump = t.add(Type::Instance(pump));
     let memory = MemoryMap::new(8, 8, 8, 400, 64).expect("small");
-    let symbol = |name: &str, ty, place| Symbol { name: name.into(), ty, place, constant: false, retain: name == "main" };
+    let symbol =
+        |name: &str, ty, place| Symbol { name: name.into(), ty, place, constant: false, retain: name == "main", access: None };
+    let path = |name: &str, ty, place, access| Symbol { access: Some(access), ..symbol(name, ty, place) };
     Image {
         name: "cell".into(),
         target: Target::X86_64V2,
@@ -36,6 +38,8 @@ pub(crate) fn sample() -> Image {
             symbol("main", pump, Place::Byte(memory.data.start)),
             symbol("points", points, Place::Byte(memory.data.start + 64)),
             symbol("lamp", bool_, Place::Bit(memory.outputs.start, 3)),
+            path("shown", bool_, Place::Bit(memory.outputs.start, 3), Access::ReadOnly),
+            path("main.given", percent, Place::Byte(memory.data.start + 2), Access::ReadWrite),
         ],
         natives: vec![
             NativeImport {
@@ -115,7 +119,7 @@ fn damage_is_named() {
     *bytes.last_mut().unwrap() ^= 1;
     assert_eq!(reason(&bytes), "the checksum does not fit the contents: the file is damaged");
     bytes[8] = 9;
-    assert_eq!(reason(&bytes), "the image has format version 9, this program reads version 2");
+    assert_eq!(reason(&bytes), "the image has format version 9, this program reads version 3");
     let mut longer = encode(&sample())[ENVELOPE..].to_vec();
     longer.push(0);
     assert_eq!(reason(&seal(&longer)), "1 bytes too many at the end");

@@ -18,7 +18,8 @@ pub struct Image {
     pub memory: MemoryMap,
     /// Initial contents; everything else is zero. Offsets into the memory, ascending, not overlapping.
     pub init: Vec<Chunk>,
-    /// Named variables: globals, located variables and program instances.
+    /// Named variables: globals, located variables, program instances and access paths. With several resources the name of what
+    /// belongs to one begins with the name of that.
     pub symbols: Vec<Symbol>,
     /// What the code calls in its host; the index is the `import` of a native call.
     pub natives: Vec<NativeImport>,
@@ -72,6 +73,17 @@ pub struct Symbol {
     pub constant: bool,
     /// Declared RETAIN.
     pub retain: bool,
+    /// An access path, and what it allows; `None` for the variable itself.
+    pub access: Option<Access>,
+}
+
+/// What a path of VAR_ACCESS allows (IEC 61131-3 §6.8.2).
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Access {
+    /// Reading alone.
+    ReadOnly,
+    /// Writing too.
+    ReadWrite,
 }
 
 /// A variable, or a part of one, that keeps its value over a restart.
@@ -149,11 +161,11 @@ pub struct Task {
     pub interval: Option<Nanos>,
     /// SINGLE: runs at a rising edge of this BOOL.
     pub trigger: Option<Place>,
-    /// Programs in declaration order.
+    /// Programs in declaration order, then the function blocks that have this task.
     pub programs: Vec<Program>,
 }
 
-/// A program instance of a task.
+/// A program instance of a task, or a function block with a task of its own.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Program {
     /// Instance name.

@@ -3,7 +3,7 @@
 
 use crate::access::AccessError;
 use crate::elementary::Elementary as E;
-use crate::image::{Image, Place, Symbol};
+use crate::image::{Access, Image, Place, Symbol};
 use crate::literal::parse_int;
 use crate::types::{Dim, Field, Section, Type, TypeId};
 use crate::value::VarType;
@@ -20,6 +20,8 @@ pub struct Variable {
     pub ty: VarType,
     /// Declared CONSTANT: the program may not look at it again.
     pub constant: bool,
+    /// Reached by an access path that is READ_ONLY.
+    pub read_only: bool,
 }
 
 type Found = Result<Variable, AccessError>;
@@ -32,7 +34,13 @@ pub fn resolve(image: &Image, path: &str) -> Found {
     }
     let steps = steps(path)?;
     let (symbol, rest) = root(image, &steps)?;
-    let start = Variable { name: symbol.name.clone(), place: symbol.place, ty: symbol.ty.into(), constant: symbol.constant };
+    let start = Variable {
+        name: symbol.name.clone(),
+        place: symbol.place,
+        ty: symbol.ty.into(),
+        constant: symbol.constant,
+        read_only: symbol.access == Some(Access::ReadOnly),
+    };
     rest.iter().try_fold(start, |v, step| descend(image, v, step))
 }
 
@@ -174,7 +182,7 @@ fn address(image: &Image, path: &str) -> Found {
     }
     let offset = area.start + a.byte;
     let place = if a.ty == E::Bool { Place::Bit(offset, a.bit as u8) } else { Place::Byte(offset) };
-    Ok(Variable { name: text, place, ty: VarType::Direct(a.ty), constant: false })
+    Ok(Variable { name: text, place, ty: VarType::Direct(a.ty), constant: false, read_only: false })
 }
 
 /// The parts of a direct address.
@@ -232,9 +240,11 @@ mod tests {
             ("points[1, 1].X", "points[1,1].x at 242: INT"),
             ("points[-1,0].label", "points[-1,0].label at 154: STRING[7]"),
             ("Lamp", "lamp at 72.3: BOOL"),
+            ("SHOWN", "shown at 72.3: BOOL"),
+            ("main.GIVEN.%X1", "main.given.1 at 90.1: direct BOOL"),
             ("main.cuont", "C0007: `main` has no member `cuont` (did you mean `count`?)"),
             ("mian.go", "C0007: there is no variable or program instance `mian` (did you mean `main`?)"),
-            ("zzz", "C0007: there is no variable or program instance `zzz` (there are main, points, lamp)"),
+            ("zzz", "C0007: there is no variable or program instance `zzz` (there are main, points, lamp, shown, main.given)"),
             (
                 "main.table",
                 "C0007: `main.table` is a VAR_IN_OUT: it has a value during a call alone (name the variable that is passed)",

@@ -6,6 +6,7 @@ use crate::elementary::Elementary as E;
 use crate::image::{Image, Place};
 use crate::literal::{format_lreal, format_real};
 use crate::literal_time::format_time;
+use crate::path::Variable;
 use crate::types::{Section, Type, TypeId, TypeTable};
 
 mod text;
@@ -187,6 +188,14 @@ impl Patch {
     /// Prepares a value for the variable that `path` names, such as `main.speed`.
     pub fn from_path(image: &Image, path: &str, text: &str) -> Result<Self, AccessError> {
         let v = crate::path::resolve(image, path)?;
+        Self::for_variable(image, &v, text)
+    }
+    /// Prepares a value for a variable; an access path that is READ_ONLY takes none.
+    pub fn for_variable(image: &Image, v: &Variable, text: &str) -> Result<Self, AccessError> {
+        if v.read_only {
+            let e = AccessError::read_only(&v.name);
+            return Err(e.help("declare it READ_WRITE, or write the variable by its own path"));
+        }
         Self::new(&image.types, v.place, v.ty, text)
     }
     /// Writes it. A place outside of the memory is left alone. Runs: cyclic.

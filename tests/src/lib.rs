@@ -11,4 +11,5 @@ pub mod mir_run;
 pub mod plc;
 pub mod rng;
 pub mod run_time;
+pub mod timed;
 pub mod workloads;

@@ -13,7 +13,9 @@ PROGRAM p VAR a : ARRAY[1..3] OF S; i : INT; t : TON; d AT %QW1 : WORD; b : f; k
 FOR i := 1 TO 3 BY 2 DO a[i].x := LIMIT(0, i, 9); IF d.3 THEN EXIT; ELSIF i = 2 THEN CONTINUE; END_IF; END_FOR;
 CASE i OF 1..3, 5: t(IN := NOT d.%X1, PT := T#1s5ms); ELSE b(c := t.Q, n := k); END_CASE;
 a[2].s := CONCAT('x$'', MID(a[1].s, 1, 2)); WHILE k < 16#7F DO k := k + 1; END_WHILE END_PROGRAM
-CONFIGURATION c RESOURCE r ON plc TASK fast (INTERVAL := T#10ms, PRIORITY := 1); PROGRAM x WITH fast : p; END_RESOURCE END_CONFIGURATION";
+CONFIGURATION c RESOURCE r ON plc TASK fast (INTERVAL := T#10ms, PRIORITY := 1); PROGRAM x WITH fast : p (t WITH slow);
+TASK slow (PRIORITY := 3, SINGLE := %IX0.1); END_RESOURCE RESOURCE s ON plc.x PROGRAM x : p; END_RESOURCE
+VAR_ACCESS i : r.x.i : INT READ_WRITE; j : s.x.a[2].x : R; END_VAR END_CONFIGURATION";
 
 /// Instruction List.
 const IL: &str = "FUNCTION f : INT VAR_INPUT a : INT; b : INT; END_VAR

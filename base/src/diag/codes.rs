@@ -132,11 +132,13 @@ codes! {
     P3081 UnknownInstance "no instance has this path";
     P3082 NotConfigurable "this can't be given by VAR_CONFIG";
     P3083 InstanceMismatch "the variable at this path is declared differently";
+    P3084 AccessDirection "what this access path names can't be written";
 
     // --- P4 tasks and configuration ---
     P4001 UnknownTask "no task has this name";
     P4002 NoProgram "nothing to run: the project has no PROGRAM";
     P4003 BadTask "this task can't be scheduled";
+    P4004 BadBinding "this can't have a task of its own";
 
     // --- P5 Instruction List ---
     P5001 UnknownInstruction "no instruction or function has this name";
@@ -189,6 +191,7 @@ codes! {
     C0006 BadStimulus "the stimulus file is not well formed";
     C0007 UnknownPath "no variable has this path";
     C0008 BadValueText "this text is not a value of the variable's type";
+    C0009 ReadOnlyPath "this access path can be read alone";
 
     // --- T tests ---
     T0001 BadTestPragma "this `{test}` pragma is not understood";

@@ -45,7 +45,7 @@ impl Builder<'_> {
             self.check_result_written(id);
         }
         self.hir.pous[id].body = body;
-        self.scope = outer;
+        self.symbols.pous[id].scope = std::mem::replace(&mut self.scope, outer);
     }
 }
 

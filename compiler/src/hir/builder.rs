@@ -34,6 +34,8 @@ pub(super) struct Builder<'a> {
     pub image: ImagePlan,
     /// Who calls whom, and where. `None`: the connections of a program in the configuration.
     pub calls: Vec<(Option<PouId>, PouId, Span)>,
+    /// Who uses globals whose names mean different variables in different resources, and where. `None`: the default of a type.
+    pub uses: Vec<(Option<PouId>, GlobalId, Span)>,
     /// Only the place of a variable is wanted, which may be that of a global whose value is being resolved.
     pub place_only: bool,
     /// What is unusual about the conversion in progress.
@@ -78,6 +80,7 @@ impl<'a> Builder<'a> {
             global_enums: Vec::new(),
             image: ImagePlan::default(),
             calls: Vec::new(),
+            uses: Vec::new(),
             place_only: false,
             notices: Vec::new(),
             bit_members: HashMap::new(),

@@ -1,14 +1,14 @@
 //! Tasks and program instances (§10.1, §10.2). A project without CONFIGURATION runs one instance of each of its programs.
 
-use super::body::{arg_expr, expression_addresses};
+use super::body::expression_addresses;
 use super::builder::Builder;
-use super::convert::Operand;
+use super::instance::Found;
 use super::model::*;
-use super::symbols::Unit;
 use crate::syntax::ast;
 use std::collections::HashMap;
 use takt_base::{Code, Diag, Nanos, Span};
 use takt_image::Elementary;
+use takt_image::validate::MAX_TASKS;
 
 /// Period of the task that is made up when there is no CONFIGURATION.
 pub const DEFAULT_INTERVAL: Nanos = Nanos::from_millis(20);
@@ -24,21 +24,17 @@ const TASKS_MAX: usize = 64;
 impl<'a> Builder<'a> {
     /// Makes the tasks.
     pub fn configure(&mut self) {
-        let resources: Vec<&'a ast::Resource> = self.symbols.configurations.iter().flat_map(|c| &c.resources).collect();
         if self.symbols.configurations.is_empty() {
             self.default_configuration();
-            return self.share_programs();
         }
-        if let Some(second) = resources.get(1) {
-            let name = second.name.as_ref().or_else(|| second.programs.first().map(|p| &p.name));
-            if let Some(name) = name {
-                self.unsupported(name.span, "a second resource", "put all tasks into one resource");
-            }
+        for (resource, number) in self.resources().into_iter().zip(0..) {
+            self.scope.resource = Some(number);
+            self.resource(resource, number);
+            self.scope.resource = None;
         }
-        if let Some(resource) = resources.first() {
-            self.resource(resource);
-        }
+        self.check_all_tasks();
         self.share_programs();
+        self.access_paths();
     }
 
     fn default_configuration(&mut self) {
@@ -58,14 +54,15 @@ impl<'a> Builder<'a> {
         }
         if !programs.is_empty() {
             let interval = Some(DEFAULT_INTERVAL);
-            self.hir.tasks.push(Task { name: DEFAULT_TASK.to_owned(), priority: 0, interval, single: None, programs });
+            self.hir.tasks.push(Task { interval, programs, ..new_task(DEFAULT_TASK, 0, 0) });
         }
     }
 
-    fn resource(&mut self, resource: &'a ast::Resource) {
+    fn resource(&mut self, resource: &'a ast::Resource, number: u32) {
+        let first = self.hir.tasks.len();
         let mut names: HashMap<String, Span> = HashMap::new();
         for decl in &resource.tasks {
-            let task = self.task(decl);
+            let task = self.task(decl, number);
             if self.unique(&mut names, &decl.name) {
                 self.hir.tasks.push(task);
             }
@@ -73,10 +70,27 @@ impl<'a> Builder<'a> {
         self.check_task_count(resource);
         let mut names = HashMap::new();
         for decl in &resource.programs {
-            let program = self.program(decl);
+            let program = self.program(decl, number);
             if let (Some(program), true) = (program, self.unique(&mut names, &decl.name)) {
+                self.bind_blocks(decl, &program);
                 self.assign_task(decl, program);
             }
+        }
+        // A trigger may be an output of a program, which had to be there first.
+        let triggers: Vec<_> = resource.tasks.iter().map(|t| t.single.as_ref().and_then(|e| self.trigger(e, number))).collect();
+        for (decl, single) in resource.tasks.iter().zip(triggers) {
+            if let Some(task) = self.hir.tasks[first..].iter_mut().find(|t| decl.name.is(&t.name)) {
+                task.single = task.single.take().or(single);
+            }
+        }
+    }
+
+    /// All resources share one scheduler.
+    fn check_all_tasks(&mut self) {
+        let last = self.resources().into_iter().rev().flat_map(|r| r.tasks.last()).next();
+        if let Some(task) = last.filter(|_| self.hir.tasks.len() > MAX_TASKS) {
+            let help = format!("all resources together have at most {MAX_TASKS} tasks");
+            self.report(Diag::new(Code::BadTask, task.name.span, "too many tasks").help(help));
         }
     }
 
@@ -87,7 +101,7 @@ impl<'a> Builder<'a> {
         }
     }
 
-    fn unique(&mut self, names: &mut HashMap<String, Span>, name: &ast::Name) -> bool {
+    pub(super) fn unique(&mut self, names: &mut HashMap<String, Span>, name: &ast::Name) -> bool {
         let first = *names.entry(name.key()).or_insert(name.span);
         if first != name.span {
             self.report(Diag::new(Code::DuplicateName, name.span, "declared again").also(first, "first declared"));
@@ -95,19 +109,18 @@ impl<'a> Builder<'a> {
         first == name.span
     }
 
-    fn task(&mut self, decl: &ast::TaskDecl) -> Task {
+    fn task(&mut self, decl: &ast::TaskDecl, resource: u32) -> Task {
         let interval = decl.interval.as_ref().map_or(Some(Nanos::ZERO), |e| self.interval(e));
         let priority = decl.priority.as_ref().map_or(0, |e| self.priority(e));
-        let single = decl.single.as_ref().and_then(|e| self.trigger(e));
-        if interval == Some(Nanos::ZERO) && decl.single.is_none() {
+        if interval == Some(Nanos::ZERO) && decl.single.as_ref().is_none_or(|e| fixed_level(e) == Some(false)) {
             let help = "give it a period, INTERVAL := T#10ms, or a trigger, SINGLE := variable";
             self.report(Diag::new(Code::BadTask, decl.name.span, "nothing ever starts it").help(help));
         }
         let interval = interval.filter(|i| *i > Nanos::ZERO);
-        Task { name: decl.name.text.clone(), priority, interval, single, programs: Vec::new() }
+        Task { interval, ..new_task(&decl.name.text, priority, resource) }
     }
 
-    /// The period, zero for none; `None` if it was wrong.
+    /// The period, zero for none; `None` if it was wrong. It is fixed before anything runs.
     fn interval(&mut self, e: &ast::Expr) -> Option<Nanos> {
         let time = self.elem(Elementary::Time);
         let ns = self.const_of(e, time)?;
@@ -127,126 +140,93 @@ impl<'a> Builder<'a> {
         value as u32
     }
 
-    /// SINGLE: a BOOL that is a global or a direct address.
-    fn trigger(&mut self, e: &ast::Expr) -> Option<Place> {
+    /// SINGLE: a BOOL that is a global, a direct address or a variable of a program.
+    fn trigger(&mut self, e: &ast::Expr, resource: u32) -> Option<Spot> {
         let bool = self.bool();
+        let help = "a rising edge of this variable starts the task";
+        if let Some(level) = fixed_level(e) {
+            if level {
+                self.report(Diag::new(Code::BadTask, e.span, "never rises").help("name a variable, or leave SINGLE out"));
+            }
+            return None;
+        }
+        if let Some(found) = self.program_variable(e, resource) {
+            let found = found?;
+            if found.ty != bool {
+                let label = format!("{}, a BOOL wanted", self.show(found.ty));
+                self.report(Diag::new(Code::BadTask, e.span, label).help(help));
+                return None;
+            }
+            return self.spot(&found, e.span);
+        }
         let place = self.place(e)?.place;
-        if place.ty != bool || !place.path.is_empty() {
-            let label = format!("{}, a BOOL global or address wanted", self.show(place.ty));
-            self.report(Diag::new(Code::BadTask, e.span, label).help("a rising edge of this variable starts the task"));
+        match place.base {
+            Base::Global(id) if place.ty == bool && place.path.is_empty() => Some(Spot::Part(Root::Global(id), 0)),
+            Base::Image(at) if place.ty == bool => Some(Spot::Image(at)),
+            _ => {
+                let label = format!("{}, a BOOL global, output or address wanted", self.show(place.ty));
+                self.report(Diag::new(Code::BadTask, e.span, label).help(help));
+                None
+            }
+        }
+    }
+
+    /// `prog.output`; `None` if the expression does not begin with a program of this resource.
+    fn program_variable(&mut self, e: &ast::Expr, resource: u32) -> Option<Option<Found>> {
+        let ast::ExprKind::Member(base, output) = &e.kind else { return None };
+        let ast::ExprKind::Name(name) = &base.kind else { return None };
+        if !self.planned.iter().any(|p| p.resource == resource && name.is(&p.name)) {
             return None;
         }
-        Some(place)
-    }
-
-    fn program(&mut self, decl: &'a ast::ProgramDecl) -> Option<ProgramInstance> {
-        self.check_unit_use(&decl.ty);
-        let pou = match self.unit(&decl.ty) {
-            Some((Unit::Pou(id), _)) if self.hir.pous[id].kind == PouKind::Program => id,
-            Some(_) => {
-                let diag = Diag::new(Code::UnknownType, decl.ty.span, "not a PROGRAM").message("a task runs programs");
-                self.report(diag.help("wrap it: declare an instance in a PROGRAM and call it there"));
-                return None;
-            }
-            None => {
-                let known = self.hir.pous.iter().filter(|p| p.kind == PouKind::Program).map(|p| p.name.clone()).collect();
-                self.unknown(Code::UnknownType, &decl.ty, known);
-                return None;
-            }
-        };
-        self.check_bound(pou, decl.name.span);
-        let unit = self.symbols.pous[pou].decl;
-        if unit.test.is_some() {
-            let diag = Diag::new(Code::TestInConfiguration, decl.ty.span, "a unit test").also(unit.name.span, "declared");
-            self.report(diag.help("tests are run by `takt test`, not by tasks"));
-            return None;
-        }
-        let mut program = instance(decl.name.text.clone(), pou);
-        program.keep = match decl.retain {
-            Some(true) => Keep::Retain,
-            Some(false) => Keep::NonRetain,
-            None => Keep::Unsaid,
-        };
-        program.init = self.values.remove(&program.root());
-        for arg in &decl.connections {
-            self.connect(&mut program, arg, decl.name.span);
-        }
-        Some(program)
-    }
-
-    /// A task binds nothing to a VAR_IN_OUT (§4.7).
-    pub(super) fn check_bound(&mut self, pou: PouId, at: Span) {
-        let unbound = self.hir.pous[pou].vars.iter().find(|v| v.role == Role::InOut);
-        if let Some(var) = unbound {
-            let (label, declared) = (format!("a task can't bind `{}`", var.name), var.span);
-            let help = "use VAR_EXTERNAL, or VAR_INPUT and VAR_OUTPUT";
-            self.report(Diag::new(Code::MissingInOut, at, label).also(declared, "declared").help(help));
-        }
-    }
-
-    /// `in := global`, `out => global`.
-    fn connect(&mut self, program: &mut ProgramInstance, arg: &ast::Arg, at: Span) {
-        match arg {
-            ast::Arg::Input { name, value: Some(value) } => {
-                if let Some((var, ty)) = self.connected(program.pou, name, &[Role::Input]) {
-                    let value = self.value(value, ty);
-                    program.inputs.push((var, value));
-                }
-            }
-            ast::Arg::Output { name, negated: false, target: Some(target) } => {
-                let Some((var, ty)) = self.connected(program.pou, name, &[Role::Output]) else { return };
-                let Some(place) = self.writable(target) else { return };
-                let from = Expr { kind: ExprKind::Load(place.clone()), ty, span: target.span };
-                if self.fit(Operand::fixed(from), place.ty).ty != self.error {
-                    program.outputs.push((var, place));
-                }
-            }
-            ast::Arg::Input { name, .. } | ast::Arg::Output { name, .. } => {
-                self.unsupported(name.span, "this connection", "write `input := value` or `output => variable`");
-            }
-            ast::Arg::Positional(e) => {
-                self.report(
-                    Diag::new(Code::UnknownParameter, e.span, "no name").also(at, "program").help("write `name := value`"),
-                );
-            }
-        }
-    }
-
-    fn connected(&mut self, pou: PouId, name: &ast::Name, roles: &[Role]) -> Option<(VarId, takt_image::TypeId)> {
-        let vars = &self.hir.pous[pou].vars;
-        let found = vars.enumerate().find(|(_, v)| name.is(&v.name) && roles.contains(&v.role)).map(|(id, v)| (id, v.ty));
-        if found.is_none() {
-            let known = vars.iter().filter(|v| roles.contains(&v.role)).map(|v| v.name.clone()).collect();
-            self.unknown(Code::UnknownParameter, name, known);
-        }
-        found
+        let parts = [name, output].map(|n| ast::PathPart::Name(n.clone()));
+        Some(self.variable_path(Some(resource), &parts, e.span))
     }
 
     fn assign_task(&mut self, decl: &ast::ProgramDecl, program: ProgramInstance) {
         let Some(name) = &decl.task else { return self.background(program) };
-        match self.hir.tasks.iter_mut().find(|t| name.is(&t.name)) {
-            Some(task) => task.programs.push(program),
-            None => {
-                let known: Vec<_> = self.hir.tasks.iter().map(|t| t.name.clone()).collect();
-                let diag = Diag::new(Code::UnknownTask, name.span, "not declared");
-                self.report(match takt_base::nearest(&name.text, known.iter().map(String::as_str)) {
-                    Some(near) => diag.help(format!("did you mean `{near}`?")),
-                    None => diag.help("declare it: TASK name (INTERVAL := T#10ms, PRIORITY := 1);"),
-                });
-            }
+        if let Some(task) = self.task_of(name, program.resource) {
+            self.hir.tasks[task].programs.push(program);
         }
     }
 
+    /// The task of a resource by its name.
+    pub(super) fn task_of(&mut self, name: &ast::Name, resource: u32) -> Option<usize> {
+        let found = self.hir.tasks.iter().position(|t| t.resource == resource && name.is(&t.name));
+        if found.is_none() {
+            let known = self.hir.tasks.iter().filter(|t| t.resource == resource).map(|t| t.name.as_str());
+            let diag = Diag::new(Code::UnknownTask, name.span, "not declared");
+            let diag = match takt_base::nearest(&name.text, known) {
+                Some(near) => diag.help(format!("did you mean `{near}`?")),
+                None => diag.help("declare it: TASK name (INTERVAL := T#10ms, PRIORITY := 1);"),
+            };
+            self.report(diag);
+        }
+        found
+    }
+
     fn background(&mut self, program: ProgramInstance) {
-        let found = self.hir.tasks.iter().position(|t| t.name == BACKGROUND_TASK);
+        let resource = program.resource;
+        let found = self.hir.tasks.iter().position(|t| t.resource == resource && t.priority == u32::MAX);
         let at = found.unwrap_or_else(|| {
-            let priority = u32::MAX;
-            let task = Task { name: BACKGROUND_TASK.to_owned(), priority, interval: None, single: None, programs: Vec::new() };
-            self.hir.tasks.push(task);
+            self.hir.tasks.push(new_task(BACKGROUND_TASK, u32::MAX, resource));
             self.hir.tasks.len() - 1
         });
         self.hir.tasks[at].programs.push(program);
     }
+}
+
+/// The value of a SINGLE that is a literal: FALSE is as good as none.
+fn fixed_level(e: &ast::Expr) -> Option<bool> {
+    match e.kind {
+        ast::ExprKind::Literal(ast::Literal::Bool(level)) => Some(level),
+        _ => None,
+    }
+}
+
+/// A task with nothing to start it and nothing to run.
+pub(super) fn new_task(name: &str, priority: u32, resource: u32) -> Task {
+    let (programs, blocks) = (Vec::new(), Vec::new());
+    Task { name: name.to_owned(), priority, interval: None, single: None, resource, programs, blocks }
 }
 
 pub(super) fn instance(name: String, pou: PouId) -> ProgramInstance {
@@ -266,7 +246,7 @@ pub(super) fn instance(name: String, pou: PouId) -> ProgramInstance {
 pub(super) fn addresses<'t>(c: &'t ast::Configuration, on: &mut dyn FnMut(&'t ast::Address)) {
     for r in &c.resources {
         let singles = r.tasks.iter().filter_map(|t| t.single.as_ref());
-        let connected = r.programs.iter().flat_map(|p| &p.connections).filter_map(arg_expr);
-        expression_addresses(singles.chain(connected).collect(), on);
+        expression_addresses(singles.chain(super::connect::expressions(r)).collect(), on);
     }
+    super::access::addresses(&c.access, on);
 }

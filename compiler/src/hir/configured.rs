@@ -21,9 +21,6 @@ impl Builder<'_> {
     pub fn var_config(&mut self) {
         let mut given = Given::new();
         for c in self.symbols.configurations.clone() {
-            if let Some(access) = c.access.first() {
-                self.unsupported(access.name.span, "VAR_ACCESS", "name the variable by its own path in --watch and --set");
-            }
             c.config.iter().for_each(|decl| self.config_decl(decl, &mut given));
         }
         self.mirror_values();
@@ -237,10 +234,12 @@ impl<'g> OpenCheck<'g> {
         for (resource, name, ty) in programs {
             let Some(ty) = ty else { continue };
             let root = Root::Program(resource, name.to_ascii_uppercase());
+            let name = b.hir.path(Some(resource), &name);
             self.walk(b, &root, ty, &mut Vec::new(), &name);
         }
         for id in b.hir.globals.indices() {
-            let (name, ty, span) = (b.hir.globals[id].name.clone(), b.hir.globals[id].ty, b.hir.globals[id].span);
+            let g = &b.hir.globals[id];
+            let (name, ty, span) = (b.hir.global_path(g), g.ty, g.span);
             let owner = Owner::Global(id);
             if b.image.open_area(owner).is_some() && !self.given.contains_key(&(Root::Global(id), Vec::new())) {
                 left_open(b, span, &name);

@@ -42,6 +42,7 @@ impl Builder<'_> {
             State::Pending => entry.state = State::Busy,
         }
         let outer = std::mem::take(&mut self.scope);
+        self.scope.resource = self.hir.globals[id].resource;
         self.deeper(decl.span, |b| b.resolve_global(id, decl));
         self.scope = outer;
         self.symbols.global_entries[id].state = State::Done;

@@ -251,6 +251,7 @@ impl Builder<'_> {
         };
         for pou in self.symbols.pous.iter() {
             super::body::addresses(&pou.decl.body, &mut note);
+            super::access::addresses(&pou.decl.paths, &mut note);
         }
         self.symbols.configurations.iter().for_each(|c| super::config::addresses(c, &mut note));
         for (area, end) in found.into_iter().filter(|f| f.1 <= AREA_MAX) {

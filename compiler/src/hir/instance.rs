@@ -38,14 +38,19 @@ pub(super) struct Found {
     pub last: Last,
     /// Where it is declared.
     pub declared: Span,
+    /// The variable of a program that is located, or that this is a part of; `offset` counts from its start then.
+    pub located: Option<(PouId, VarId)>,
+    /// One bit of a byte.
+    pub is_bit: bool,
+}
+
+impl Found {
+    fn new(root: Root, ty: TypeId, last: Last, declared: Span) -> Self {
+        Self { root, steps: Vec::new(), offset: 0, ty, last, declared, located: None, is_bit: false }
+    }
 }
 
 impl<'a> Builder<'a> {
-    /// All resources of all configurations, in order.
-    pub fn resources(&self) -> Vec<&'a ast::Resource> {
-        self.symbols.configurations.iter().flat_map(|c| &c.resources).collect()
-    }
-
     /// Finds the program instances of all resources.
     pub fn plan_programs(&mut self) {
         if self.symbols.configurations.is_empty() {
@@ -67,13 +72,28 @@ impl<'a> Builder<'a> {
     /// What a path names; reports a path that leads nowhere.
     pub fn instance_path(&mut self, path: &ast::InstancePath) -> Option<Found> {
         let (resource, parts) = self.leading_resource(&path.parts);
+        self.variable_path(resource, parts, path.span)
+    }
+
+    /// The same for the part behind the name of a resource.
+    pub fn variable_path(&mut self, resource: Option<u32>, parts: &[PathPart], span: Span) -> Option<Found> {
         let Some((PathPart::Name(first), rest)) = parts.split_first() else {
             let help = "write Resource.Program.variable";
-            self.report(Diag::new(Code::UnknownInstance, path.span, "no variable of an instance").help(help));
+            self.report(Diag::new(Code::UnknownInstance, span, "no variable of an instance").help(help));
             return None;
         };
         let mut found = self.path_root(resource, first)?;
         for part in rest {
+            found = self.path_step(found, part)?;
+        }
+        Some(found)
+    }
+
+    /// What a path names that begins in a unit: its instance lies at the root.
+    pub fn path_within(&mut self, pou: PouId, root: Root, parts: &[PathPart]) -> Option<Found> {
+        let (ty, declared) = (self.hir.pous[pou].instance?, self.symbols.pous[pou].decl.name.span);
+        let mut found = Found::new(root, ty, Last::Program, declared);
+        for part in parts {
             found = self.path_step(found, part)?;
         }
         Some(found)
@@ -101,9 +121,9 @@ impl<'a> Builder<'a> {
                 return None;
             }
             let (ty, declared) = (self.hir.pous[pou].instance?, self.symbols.pous[pou].decl.name.span);
-            return Some(Found { root, steps: Vec::new(), offset: 0, ty, last: Last::Program, declared });
+            return Some(Found::new(root, ty, Last::Program, declared));
         }
-        let Some(&id) = self.symbols.globals.get(&name.key()) else {
+        let Some(id) = self.global_of_path(resource, name)? else {
             let programs = self.planned.iter().map(|p| p.name.clone());
             let known = programs.chain(self.hir.globals.iter().map(|g| g.name.clone())).collect();
             self.unknown(Code::UnknownInstance, name, known);
@@ -111,7 +131,24 @@ impl<'a> Builder<'a> {
         };
         let g = &self.hir.globals[id];
         let (root, declared) = (Root::Global(id), g.span);
-        Some(Found { root, steps: Vec::new(), offset: 0, ty: g.ty, last: Last::Global(id), declared })
+        Some(Found::new(root, g.ty, Last::Global(id), declared))
+    }
+
+    /// The global that a path begins with; `None`: several resources have it, which is reported.
+    fn global_of_path(&mut self, resource: Option<u32>, name: &ast::Name) -> Option<Option<GlobalId>> {
+        let key = name.key();
+        if let Some(resource) = resource {
+            return Some(self.visible(resource, &key));
+        }
+        let list = self.candidates(&key);
+        match list.iter().find(|g| self.hir.globals[**g].resource.is_none()).or(list.first()) {
+            Some(&id) if list.len() > 1 && self.hir.globals[id].resource.is_some() => {
+                let help = "write the name of the resource in front";
+                self.report(Diag::new(Code::UnknownInstance, name.span, "several resources have it").help(help));
+                None
+            }
+            found => Some(found.copied()),
+        }
     }
 
     fn path_step(&mut self, found: Found, part: &PathPart) -> Option<Found> {
@@ -172,7 +209,8 @@ impl<'a> Builder<'a> {
                     Storage::Field(i) => (i, crate::hir::instance::field_offset(self.ty(found.ty), i)?),
                     _ => (u32::MAX, 0),
                 };
-                Some(follow(found, number, offset, ty, Last::Var(pou, id), Some(declared)))
+                let located = found.located.or((number == u32::MAX).then_some((pou, id)));
+                Some(Found { located, ..follow(found, number, offset, ty, Last::Var(pou, id), Some(declared)) })
             }
         }
     }
@@ -181,8 +219,8 @@ impl<'a> Builder<'a> {
         let Type::Struct(record) = self.ty(found.ty) else { return None };
         match (0..).zip(&record.fields).find(|(_, f)| name.is(&f.name)) {
             Some((i, f)) => {
-                let (offset, ty) = (f.offset, f.ty);
-                Some(follow(found, i, offset, ty, Last::Part, None))
+                let (offset, ty, is_bit) = (f.offset, f.ty, self.bit_members.contains_key(&(found.ty, i)));
+                Some(Found { is_bit, ..follow(found, i, offset, ty, Last::Part, None) })
             }
             None => {
                 let known = record.fields.iter().map(|f| f.name.clone()).collect();

@@ -2,6 +2,7 @@
 //! Order: collect names, resolve declarations, place %I %Q %M, type bodies, configure tasks, check. See [`model`].
 //! Never stops at an error: what is wrong is reported once and stands for itself from then on.
 
+mod access;
 mod assert;
 mod assign;
 mod block;
@@ -12,6 +13,7 @@ mod chain;
 mod check;
 mod config;
 mod configured;
+mod connect;
 mod constant;
 mod convert;
 mod declare;
@@ -30,6 +32,7 @@ mod place;
 mod pointer;
 mod program;
 mod reference;
+mod resource;
 mod scope;
 mod space;
 mod stmt;

@@ -2,9 +2,12 @@
 //! their arguments in order. ST, IL and the graphical languages meet here.
 #![allow(missing_docs)] // the names of fields and variants say it; what they do not say stands beside them
 
+mod config;
+
 use crate::syntax::ast::{BinaryOp, Edge};
+pub use config::*;
 use takt_base::index::IndexVec;
-use takt_base::{Nanos, SourceId, Span};
+use takt_base::{SourceId, Span};
 use takt_image::image::Place as ImagePlace;
 use takt_image::{Elementary, TypeId, TypeTable};
 use takt_stdlib::catalog::Intrinsic;
@@ -31,8 +34,14 @@ pub struct Hir {
     pub pous: IndexVec<PouId, Pou>,
     /// VAR_GLOBAL variables.
     pub globals: IndexVec<GlobalId, Global>,
-    /// Tasks with their program instances.
+    /// Tasks of all resources with their program instances.
     pub tasks: Vec<Task>,
+    /// Names of the resources if there are several: paths begin with them (§10.1). Empty for one.
+    pub resources: Vec<String>,
+    /// Of each resource, if there are several: what its units mean by the names of globals.
+    pub views: Vec<View>,
+    /// VAR_ACCESS.
+    pub accesses: Vec<AccessPath>,
     /// Variables of single instances that stand for an address, which VAR_CONFIG gives.
     pub mirrors: Vec<Mirror>,
     /// A program may be a variable too (vendor): its instance may be a global.
@@ -187,74 +196,10 @@ pub struct Global {
     pub constant: bool,
     /// RETAIN and its kin.
     pub keep: Keep,
+    /// Number of the resource that it belongs to, if it is not for all.
+    pub resource: Option<u32>,
     /// Declaration.
     pub span: Span,
-}
-
-/// A task of the resource.
-#[derive(Debug)]
-pub struct Task {
-    /// Name.
-    pub name: String,
-    /// 0 is the highest.
-    pub priority: u32,
-    /// Period.
-    pub interval: Option<Nanos>,
-    /// SINGLE: a global BOOL or a bit of the process image.
-    pub single: Option<Place>,
-    /// Instances in declaration order.
-    pub programs: Vec<ProgramInstance>,
-}
-
-/// What an instance path begins with.
-#[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Root {
-    Global(GlobalId),
-    /// A program instance: number of its resource, and its name in capitals.
-    Program(u32, String),
-}
-
-/// A field of one instance that stands for an address: copied in before each program that may use it runs, and back afterwards.
-#[derive(Clone, Debug)]
-pub struct Mirror {
-    pub root: Root,
-    /// Bytes behind the start of the root.
-    pub offset: u32,
-    pub ty: TypeId,
-    /// The address.
-    pub place: ImagePlace,
-    /// In %I: not copied back.
-    pub input: bool,
-    /// Initial value.
-    pub init: Const,
-}
-
-impl Mirror {
-    /// True if a program instance may use it when it runs.
-    pub fn is_seen_by(&self, program: &ProgramInstance) -> bool {
-        matches!(self.root, Root::Global(_)) || self.root == program.root()
-    }
-}
-
-/// A program instance.
-#[derive(Debug)]
-pub struct ProgramInstance {
-    /// Instance name.
-    pub name: String,
-    /// Its type.
-    pub pou: PouId,
-    /// Number of its resource.
-    pub resource: u32,
-    /// PROGRAM RETAIN.
-    pub keep: Keep,
-    /// Initial value of the whole instance, if VAR_CONFIG gives one to a part of it.
-    pub init: Option<Const>,
-    /// The variable that this instance is, if it is one (vendor).
-    pub global: Option<GlobalId>,
-    /// Copied before each run: input (or output) variable of the program, value.
-    pub inputs: Vec<(VarId, Expr)>,
-    /// Copied after each run.
-    pub outputs: Vec<(VarId, Place)>,
 }
 
 /// A constant of any type. Complete: every element and member is there.
@@ -531,14 +476,18 @@ pub enum Step {
     Character(Box<Expr>),
 }
 
-impl ProgramInstance {
-    /// What paths to it begin with.
-    pub fn root(&self) -> Root {
-        Root::Program(self.resource, self.name.to_ascii_uppercase())
-    }
-}
-
 impl Hir {
+    /// Name of something of a resource: with one resource its name is left out.
+    pub fn path(&self, resource: Option<u32>, name: &str) -> String {
+        match resource.and_then(|r| self.resources.get(r as usize)) {
+            Some(resource) => format!("{resource}.{name}"),
+            None => name.to_owned(),
+        }
+    }
+    /// Path of a global.
+    pub fn global_path(&self, g: &Global) -> String {
+        self.path(g.resource, &g.name)
+    }
     /// True if `sub` is `base` or extends it.
     pub fn extends(&self, sub: PouId, base: PouId) -> bool {
         let mut line = std::iter::successors(Some(sub), |id| self.pous[*id].base);

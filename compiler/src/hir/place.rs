@@ -66,6 +66,7 @@ impl Builder<'_> {
     pub fn constant_at(&self, place: &Place) -> Option<Const> {
         let mut value = match place.base {
             Base::Value(_) => return None,
+            Base::Global(id) if self.is_undecided(id) => return None,
             Base::Global(id) => Some(&self.hir.globals[id]).filter(|g| g.constant).map(|g| &g.init)?,
             Base::Var(id) => {
                 let constant = self.scope.read_only.get(&id) == Some(&ReadOnly::Constant);
@@ -177,6 +178,7 @@ impl Builder<'_> {
             self.error(Code::NotConstant, n.span, label);
             return None;
         }
+        self.note_global(id, n.span);
         let global = &self.hir.globals[id];
         let access = match () {
             () if global.constant => Access::Constant(global.span),

@@ -50,7 +50,7 @@ impl Builder<'_> {
     /// A global variable that no section declares.
     pub(super) fn new_global(&mut self, name: String, ty: TypeId, init: Const, span: Span) -> GlobalId {
         self.symbols.global_entries.push(GlobalEntry { decl: None, library: true, state: State::Done });
-        self.hir.globals.push(Global { name, ty, place: None, init, constant: false, keep: Keep::Unsaid, span })
+        self.hir.globals.push(Global { name, ty, place: None, init, constant: false, keep: Keep::Unsaid, resource: None, span })
     }
 
     /// Programs that others call: without CONFIGURATION no task runs them.
@@ -69,7 +69,7 @@ impl Builder<'_> {
                 only.global = Some(global);
                 let root = only.root();
                 let variable = &mut self.hir.globals[global];
-                variable.name = only.name.clone();
+                (variable.name, variable.resource) = (only.name.clone(), Some(only.resource));
                 variable.keep = only.keep;
                 if let Some(init) = only.init.take() {
                     variable.init = init;

@@ -12,6 +12,8 @@ use takt_image::TypeId;
 #[derive(Default, Clone)]
 pub(super) struct Scope {
     pub pou: Option<PouId>,
+    /// The resource that names belong to: in its tasks and connections, and in the values of its globals.
+    pub resource: Option<u32>,
     pub names: HashMap<String, (Local, Span)>,
     /// Names of the type that a method belongs to.
     pub members: HashMap<String, Local>,

@@ -204,11 +204,16 @@ impl<'a> Builder<'a> {
     /// The global variable that a name stands for at its place.
     pub(super) fn global_id(&self, name: &ast::Name) -> Option<GlobalId> {
         let (globals, key) = (&self.symbols.globals, name.key());
-        if self.symbols.spaces.plain(&key, name.span) {
-            return globals.get(&key).copied();
+        let resource = self.scope.resource.filter(|_| !self.symbols.resource_globals.is_empty());
+        if let Some(own) = resource.and_then(|r| self.visible(r, &key)) {
+            return Some(own);
         }
-        let found = self.symbols.spaces.resolve(&key, name.span, &|k| globals.contains_key(k));
-        globals.get(found.first()?).copied()
+        let known = |k: &str| globals.get(k).copied().filter(|id| resource.is_none() || self.hir.globals[*id].resource.is_none());
+        if self.symbols.spaces.plain(&key, name.span) {
+            return known(&key);
+        }
+        let found = self.symbols.spaces.resolve(&key, name.span, &|k| known(k).is_some());
+        known(found.first()?)
     }
 
     /// Reports a name that two USINGs import, or one of an INTERNAL namespace elsewhere.

@@ -68,6 +68,10 @@ pub(super) struct Symbols<'a> {
     pub spaces: Spaces,
     /// Globals that several lists declare, which need the name of the list.
     pub shared_globals: HashMap<String, GlobalId>,
+    /// Globals of each resource, if there are several.
+    pub resource_globals: Vec<HashMap<String, GlobalId>>,
+    /// The name under which different resources may mean different globals.
+    pub grouped: HashMap<GlobalId, String>,
 }
 
 /// Names of what is declared at file level.
@@ -222,7 +226,13 @@ impl<'a> Builder<'a> {
         }
     }
 
-    fn collect_global(&mut self, section: &ast::VarSection, decl: &'a ast::VarDecl, name: &ast::Name, library: bool) -> GlobalId {
+    pub(super) fn collect_global(
+        &mut self,
+        section: &ast::VarSection,
+        decl: &'a ast::VarDecl,
+        name: &ast::Name,
+        library: bool,
+    ) -> GlobalId {
         let id = self.hir.globals.push(Global {
             name: self.full_name(name).text,
             ty: self.error,
@@ -230,35 +240,11 @@ impl<'a> Builder<'a> {
             init: Const::Zero,
             constant: section.constant,
             keep: Keep::of(section),
+            resource: None,
             span: name.span,
         });
         self.symbols.global_entries.push(GlobalEntry { decl: Some(decl), library, state: State::Pending });
         id
-    }
-
-    /// Globals of configurations and resources; those of a resource hide those of the configuration (§3.5).
-    fn collect_configurations(&mut self) {
-        for c in self.symbols.configurations.clone() {
-            for section in &c.globals {
-                self.collect_globals(section, false, None, &|_, _| false);
-            }
-            for section in c.resources.iter().flat_map(|r| &r.globals) {
-                self.hide_globals(section, c);
-                self.collect_globals(section, false, None, &|_, _| false);
-            }
-        }
-    }
-
-    fn hide_globals(&mut self, section: &ast::VarSection, c: &ast::Configuration) {
-        let outer = |key: &str| {
-            let decls = c.globals.iter().flat_map(|s| &s.decls);
-            decls.flat_map(|d| &d.names).any(|n| n.key() == key)
-        };
-        for name in section.decls.iter().flat_map(|d| &d.names) {
-            if outer(&name.key()) {
-                self.symbols.globals.remove(&name.key());
-            }
-        }
     }
 }
 

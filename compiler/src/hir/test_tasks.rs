@@ -1,7 +1,7 @@
 //! The machine of `takt test`: each `{test}` program has a task of its own, of which the runner starts one at a time.
 
 use super::builder::Builder;
-use super::config::instance;
+use super::config::{instance, new_task};
 use super::model::*;
 use takt_base::Span;
 
@@ -32,7 +32,7 @@ impl Builder<'_> {
             let interval = decl.test.as_ref().map(|t| t.interval);
             let name = self.hir.pous[pou].name.clone();
             let programs = vec![instance(name.clone(), pou)];
-            self.hir.tasks.push(Task { name, priority: 0, interval, single: None, programs });
+            self.hir.tasks.push(Task { interval, programs, ..new_task(&name, 0, 0) });
         }
     }
 

@@ -199,6 +199,8 @@ impl Builder<'_> {
             return;
         };
         self.ensure_global(id);
+        let id = self.fitting_global(id, used.ty, section.constant);
+        self.note_global(id, name.span);
         self.declare_local(name, Local::External(id));
         let global = &self.hir.globals[id];
         let (ty, constant, span) = (global.ty, global.constant, global.span);

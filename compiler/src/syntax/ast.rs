@@ -75,6 +75,8 @@ pub struct Pou {
     pub result: Option<TypeRef>,
     /// Variable sections in order.
     pub sections: Vec<VarSection>,
+    /// VAR_ACCESS of a program.
+    pub paths: Vec<AccessDecl>,
     /// Statements.
     pub body: Vec<Stmt>,
     /// What belongs to object orientation: modifiers, heritage, methods.

@@ -166,7 +166,7 @@ impl Head {
         };
         for (i, (cell, variable)) in cells[1..].iter().zip(&self.columns).enumerate() {
             let Some(v) = variable.as_ref().filter(|_| !cell.is_empty()) else { continue };
-            match Patch::new(&image.types, v.place, v.ty, cell) {
+            match Patch::for_variable(image, v, cell) {
                 Ok(patch) => to.push(when, patch),
                 Err(e) => errors.push(StimulusError::of(line, i + 2, e)),
             }

@@ -76,5 +76,5 @@ pub fn task(name: &str, priority: u32, interval_ms: Option<i64>, functions: &[u3
 /// A symbol of an elementary type.
 pub fn symbol(image: &mut Image, name: &str, ty: Elementary, place: Place) {
     let ty = image.types.intern(Type::Elementary(ty));
-    image.symbols.push(Symbol { name: name.into(), ty, place, constant: false, retain: false });
+    image.symbols.push(Symbol { name: name.into(), ty, place, constant: false, retain: false, access: None });
 }

@@ -19,6 +19,7 @@ mod unassigned;
 mod unreachable;
 mod unused;
 mod unused_method;
+mod views;
 mod walk;
 mod writers;
 
@@ -30,6 +31,7 @@ use crate::syntax::ast;
 pub(super) fn all(builder: &mut Builder) {
     bound::check(builder);
     reach::mark(builder);
+    views::check(builder);
     recursion::check(builder);
     inline_c::check(builder);
     advice::give(builder);

@@ -88,6 +88,12 @@ fn seeds() -> Vec<String> {
         PROGRAM A VAR_INPUT i : INT; END_VAR VAR_OUTPUT o : DINT; END_VAR VAR x : P := (a := [N((s := 'q'))]); END_VAR o := i; END_PROGRAM \
         CONFIGURATION c VAR_GLOBAL z : DINT; END_VAR RESOURCE r ON q TASK t (SINGLE := g, INTERVAL := T#1s, PRIORITY := 1); \
         PROGRAM p WITH t : A (i := N, o => z); END_RESOURCE END_CONFIGURATION".to_owned());
+    seeds.push("FUNCTION_BLOCK F VAR q AT %Q* : BOOL; END_VAR VAR_EXTERNAL g : INT; END_VAR g := g + 1; END_FUNCTION_BLOCK \
+        PROGRAM A VAR_OUTPUT o : BOOL; END_VAR VAR f : F; k : ARRAY [1..2] OF INT; END_VAR VAR_ACCESS own : k[2] : INT READ_WRITE; END_VAR f(); END_PROGRAM \
+        CONFIGURATION c VAR_GLOBAL g : INT; END_VAR RESOURCE r ON q TASK t (SINGLE := p.o); PROGRAM p WITH t : A (f WITH t); END_RESOURCE \
+        RESOURCE s ON q VAR_GLOBAL g : INT; END_VAR TASK t (INTERVAL := T#1s); PROGRAM RETAIN p WITH t : A (o => %QX0.3); END_RESOURCE \
+        VAR_ACCESS a : r.p.k[1] : INT; b : s.g : INT READ_WRITE; d : r.%IX0.3 : BOOL; END_VAR \
+        VAR_CONFIG r.p.f.q AT %QX0.1 : BOOL; s.p.f.q AT %QX0.2 : BOOL := TRUE; s.g : INT := 4; END_VAR END_CONFIGURATION".to_owned());
     let test =
         "%IX0.0 := ASSERT_EQ(Red, light, 'm'); ASSERT_NEAR(EXPECTED := r, ACTUAL := 1, TOLERANCE := 0.5); ASSERT_NE(s, 'x', s8);";
     seeds.push(format!("{TYPES} {{test 'a', scans := 3}} {}", program("", VARS, test)));

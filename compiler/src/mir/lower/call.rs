@@ -3,7 +3,7 @@
 //! What has no address of its own (a bit of the process image, a part of a word) is lent through a place on the frame and written
 //! back after the call.
 
-use super::builder::{behind, fixed};
+use super::builder::behind;
 use super::expr::{Text, Value};
 use super::native::slot_of;
 use super::place::{Loc, field};
@@ -14,7 +14,6 @@ use super::walk::argument_calls;
 use crate::hir::model::*;
 use crate::mir::model::*;
 use takt_base::Span;
-use takt_image::image::Place as ImagePlace;
 use takt_image::{Elementary, NativeImport, NativeKind, Scalar, TypeId};
 
 /// Something to copy when a call is over.
@@ -41,7 +40,7 @@ impl Unit<'_, '_> {
             given.push(self.argument(arg, &pou.vars[*param], i < last_call, &mut back));
         }
         let result = pou.result.map(|r| pou.vars[r].ty);
-        let value = match self.program.functions[id] {
+        let value = match self.program.view.functions[id] {
             Some(function) => self.call_unit(function, &given, result),
             None => self.call_external(pou, &given, result, span),
         };
@@ -155,7 +154,7 @@ impl Unit<'_, '_> {
     }
 
     /// Copies from memory to a place, complemented and widened on the way.
-    fn copy_out(&mut self, from: Addr, from_ty: TypeId, to: Loc, to_ty: TypeId, negated: bool) {
+    pub(super) fn copy_out(&mut self, from: Addr, from_ty: TypeId, to: Loc, to_ty: TypeId, negated: bool) {
         let value = match self.shape(from_ty) {
             Shape::Scalar(e) => {
                 let value = self.load(Loc::Memory(from), from_ty);
@@ -177,7 +176,7 @@ impl Unit<'_, '_> {
         }
         let address = self.f.address(this);
         let bodies = self.bodies(instance, id);
-        match self.program.functions[id] {
+        match self.program.view.functions[id] {
             _ if bodies.len() > 1 => self.call_chosen(address, &bodies, None, &[address]),
             Some(function) => self.f.emit(Op::Call { dst: None, function, args: vec![address] }),
             None => self.call_native_block(pou, address),
@@ -209,78 +208,15 @@ impl Unit<'_, '_> {
     }
 
     /// Place of a pin in an instance.
-    fn pin(&self, pou: &Pou, this: Addr, var: &Var) -> Option<Addr> {
+    pub(super) fn pin(&self, pou: &Pou, this: Addr, var: &Var) -> Option<Addr> {
         let Storage::Field(i) = var.storage else { return None };
         Some(behind(this, field(&self.hir.types, pou.instance?, i)?.offset))
     }
 
-    fn call_native_block(&mut self, pou: &Pou, address: Local) {
+    pub(super) fn call_native_block(&mut self, pou: &Pou, address: Local) {
         let Some(ty) = pou.instance else { return };
         let native = self.program.import(NativeImport { name: pou.name.clone(), kind: NativeKind::Block { ty } });
         debug_assert_eq!(self.f.ty(address), Scalar::I32);
         self.f.emit(Op::CallNative { dst: None, native, args: vec![slot_of(address)] });
-    }
-
-    /// The entry that a task runs for a program with connections: inputs, program, outputs (§10.3).
-    pub fn run_program(&mut self, instance: &ProgramInstance) {
-        let pou = &self.hir.pous[instance.pou];
-        let this = self.instance_param(pou);
-        for (var, value) in &instance.inputs {
-            self.at_line(value.span);
-            let var = &pou.vars[*var];
-            let to = self.program_pin(pou, this, var);
-            let value = self.operand(value);
-            self.assign(to, var.ty, value);
-        }
-        let mirrors: Vec<_> = self.hir.mirrors.iter().filter(|m| m.is_seen_by(instance)).collect();
-        mirrors.iter().for_each(|m| self.copy_mirror(m, this, true));
-        let args = vec![self.f.address(this)];
-        if let Some(function) = self.program.functions[instance.pou] {
-            self.f.emit(Op::Call { dst: None, function, args });
-        }
-        mirrors.iter().filter(|m| !m.input).for_each(|m| self.copy_mirror(m, this, false));
-        for (var, target) in &instance.outputs {
-            self.at_line(target.span);
-            let var = &pou.vars[*var];
-            let from = self.program_pin(pou, this, var);
-            let to = self.place(target);
-            match (from, self.shape(var.ty)) {
-                (Loc::Memory(from), _) => self.copy_out(from, var.ty, to, target.ty, false),
-                (from, _) => {
-                    let value = self.load(from, var.ty);
-                    self.store(to, value);
-                }
-            }
-        }
-        self.f.end(End::Return(None));
-    }
-
-    /// From the process image into a field of an instance, or back.
-    fn copy_mirror(&mut self, m: &Mirror, this: Addr, inward: bool) {
-        let field = match &m.root {
-            Root::Program(..) => behind(this, m.offset),
-            Root::Global(g) => match self.program.data.globals[*g] {
-                ImagePlace::Byte(offset) => fixed(offset + m.offset),
-                ImagePlace::Bit(..) => return,
-            },
-        };
-        let (field, image) = (Loc::Memory(field), super::place::image_loc(m.place));
-        let (to, from) = if inward { (field, image) } else { (image, field) };
-        match (self.shape(m.ty), to, from) {
-            (Shape::Scalar(_), ..) => {
-                let value = self.load(from, m.ty);
-                self.store(to, value);
-            }
-            (shape, Loc::Memory(to), Loc::Memory(from)) => self.copy_aggregate(to, shape, from, shape, m.ty),
-            _ => {}
-        }
-    }
-
-    fn program_pin(&self, pou: &Pou, this: Addr, var: &Var) -> Loc {
-        match (var.storage, self.pin(pou, this, var)) {
-            (Storage::Image(place), _) => super::place::image_loc(place),
-            (_, Some(addr)) => Loc::Memory(addr),
-            _ => unreachable!("a connected variable is a field or located"),
-        }
     }
 }

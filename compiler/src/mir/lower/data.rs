@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, HashMap};
 use std::ops::Range;
 use takt_base::index::IndexVec;
 use takt_base::{Code, Diag, SourceId, Span};
-use takt_image::image::{Chunk, Place as ImagePlace, Symbol};
+use takt_image::image::{Chunk, Place as ImagePlace};
 use takt_image::memory::{FRAME_BYTES, MAX_MEMORY};
 use takt_image::{Elementary, MemoryMap, Type, TypeId};
 
@@ -65,6 +65,8 @@ impl Data {
         let (globals, chunks) = (&self.globals, &mut self.chunks);
         image_contents(hir, map, globals, chunks);
         for (g, place) in hir.globals.iter().zip(globals.iter()).filter(|(g, _)| g.place.is_none()) {
+            let seen = seen_by(hir, globals, g.resource);
+            let globals = seen.as_ref().unwrap_or(globals);
             if let ImagePlace::Byte(offset) = *place {
                 constant(&hir.types, globals, g.ty, &g.init, &mut |at, bytes| chunks.put(offset + at, bytes));
             }
@@ -72,6 +74,8 @@ impl Data {
         let programs = hir.tasks.iter().zip(&self.instances).flat_map(|(t, offsets)| t.programs.iter().zip(offsets));
         for (program, offset) in programs.filter(|(p, _)| p.global.is_none()) {
             let pou = &hir.pous[program.pou];
+            let seen = seen_by(hir, globals, Some(program.resource));
+            let globals = seen.as_ref().unwrap_or(globals);
             let Some(ty) = pou.instance else { continue };
             if let Some(init) = &program.init {
                 constant(&hir.types, globals, ty, init, &mut |at, bytes| chunks.put(offset + at, bytes));
@@ -83,6 +87,44 @@ impl Data {
                 }
             }
         }
+    }
+
+    /// Resource and offset of a program instance.
+    pub fn program(&self, hir: &Hir, root: &Root) -> Option<(u32, u32)> {
+        self.programs(hir).find(|(p, _)| p.root() == *root).map(|(p, offset)| (p.resource, offset))
+    }
+
+    fn programs<'d>(&'d self, hir: &'d Hir) -> impl Iterator<Item = (&'d ProgramInstance, u32)> {
+        let tasks = hir.tasks.iter().zip(&self.instances);
+        tasks.flat_map(|(t, offsets)| t.programs.iter().zip(offsets.iter().copied()))
+    }
+
+    /// Offsets of the instances of a function block that have a task of their own.
+    pub fn bound(&self, hir: &Hir, pou: PouId) -> Vec<u32> {
+        let blocks = hir.tasks.iter().flat_map(|t| &t.blocks).filter(|b| b.pou == pou);
+        blocks.filter_map(|b| Some(self.program(hir, &b.program)?.1 + b.offset)).collect()
+    }
+
+    /// Where something lies that is known before anything runs. What stands for an address is that address.
+    pub fn place(&self, hir: &Hir, spot: &Spot) -> Option<ImagePlace> {
+        let (root, offset) = match spot {
+            Spot::Image(place) => return Some(*place),
+            Spot::Part(root, offset) => (self.variable(hir, root), *offset),
+        };
+        let covers = |m: &&Mirror| m.root == root && m.offset <= offset && offset - m.offset < hir.types.layout(m.ty).size;
+        if let Some(m) = hir.mirrors.iter().find(covers) {
+            return Some(behind(m.place, offset - m.offset));
+        }
+        match root {
+            Root::Global(g) => Some(behind(self.globals[g], offset)),
+            program => Some(ImagePlace::Byte(self.program(hir, &program)?.1 + offset)),
+        }
+    }
+
+    /// A program instance may be a variable (vendor).
+    fn variable(&self, hir: &Hir, root: &Root) -> Root {
+        let found = self.programs(hir).find(|(p, _)| p.root() == *root).and_then(|(p, _)| p.global);
+        found.map_or_else(|| root.clone(), Root::Global)
     }
 
     /// Bytes without a name behind all variables.
@@ -149,6 +191,21 @@ impl Data {
     }
 }
 
+fn behind(place: ImagePlace, bytes: u32) -> ImagePlace {
+    match place {
+        ImagePlace::Byte(offset) => ImagePlace::Byte(offset + bytes),
+        bit => bit,
+    }
+}
+
+/// The globals as one of several resources sees them: references in its initial values refer to its own.
+fn seen_by(hir: &Hir, globals: &Globals, resource: Option<u32>) -> Option<Globals> {
+    let renamed = &hir.views.get(resource? as usize)?.renamed;
+    let mut seen = globals.clone();
+    renamed.iter().for_each(|(from, to)| seen[*from] = globals[*to]);
+    Some(seen)
+}
+
 /// Offset of an instance variable in its record; `None` for temporaries, located and reference variables.
 fn field_offset(hir: &Hir, instance: TypeId, var: &Var) -> Option<u32> {
     match var.storage {
@@ -180,31 +237,6 @@ fn image_contents(hir: &Hir, map: &MemoryMap, globals: &Globals, chunks: &mut Ch
     }
     let kept = bytes.into_iter().filter(|(o, _)| !map.inputs.range().contains(&(*o as usize)));
     kept.for_each(|(offset, byte)| chunks.put(offset, &[byte]));
-}
-
-/// Names for monitor and runtime: globals, program instances, and located variables of programs as `instance.variable`.
-pub fn symbols(hir: &Hir, data: &Data) -> Vec<Symbol> {
-    let globals = hir.globals.iter().zip(data.globals.iter()).map(|(g, place)| Symbol {
-        name: g.name.clone(),
-        ty: g.ty,
-        place: *place,
-        constant: g.constant,
-        retain: g.keep.is_kept(),
-    });
-    let programs = hir.tasks.iter().zip(&data.instances).flat_map(|(t, offsets)| t.programs.iter().zip(offsets));
-    globals.chain(programs.flat_map(|(p, offset)| program_symbols(hir, p, *offset))).collect()
-}
-
-fn program_symbols(hir: &Hir, program: &ProgramInstance, offset: u32) -> Vec<Symbol> {
-    let pou = &hir.pous[program.pou];
-    let symbol = |name: String, ty, place| Symbol { name, ty, place, constant: false, retain: false };
-    let itself =
-        pou.instance.filter(|_| program.global.is_none()).map(|ty| symbol(program.name.clone(), ty, ImagePlace::Byte(offset)));
-    let located = pou.vars.iter().filter(|v| v.role != Role::Hidden).filter_map(|v| match v.storage {
-        Storage::Image(place) => Some(symbol(format!("{}.{}", program.name, v.name), v.ty, place)),
-        _ => None,
-    });
-    itself.into_iter().chain(located).collect()
 }
 
 /// The message for memory that is not there.

@@ -142,7 +142,7 @@ impl Unit<'_, '_> {
             Const::Int(i) if s == Scalar::F64 => self.f.float(s, *i as f64),
             Const::Int(i) => self.f.int(s, *i as i64),
             Const::Address(global, bytes) => {
-                self.f.int(s, super::init::address(&self.program.data.globals, *global, *bytes).into())
+                self.f.int(s, super::init::address(&self.program.view.globals, *global, *bytes).into())
             }
             Const::Real(r) if s == Scalar::F32 => self.f.float(s, *r as f32 as f64),
             Const::Real(r) => self.f.float(s, *r),
@@ -313,7 +313,7 @@ impl Unit<'_, '_> {
 
     /// Address of a constant.
     pub fn pooled(&mut self, ty: TypeId, value: &Const, span: Span) -> Addr {
-        let bytes = bytes_of(self.hir, &self.program.data.globals, ty, value);
+        let bytes = bytes_of(self.hir, &self.program.view.globals, ty, value);
         match self.program.data.pooled(bytes) {
             Some(offset) => fixed(offset),
             None => {

@@ -8,6 +8,7 @@ mod case;
 mod convert;
 mod counted;
 mod data;
+mod entry;
 mod expr;
 mod graph;
 mod guarded;
@@ -25,9 +26,11 @@ mod pointer;
 mod retain;
 mod shape;
 mod stmt;
+mod symbols;
 mod task;
 mod time;
 mod unit;
+mod view;
 mod walk;
 
 use crate::hir::model::*;
@@ -40,6 +43,7 @@ use takt_base::{Diag, Sources};
 use takt_image::image::{Chunk, Retained, Symbol, Task};
 use takt_image::memory::MAX_MEMORY;
 use takt_image::{MemoryMap, NativeImport, Type};
+use view::View;
 
 /// A lowered program: everything of an image but the machine code.
 #[derive(Clone, Debug)]
@@ -63,8 +67,9 @@ pub struct Program<'h> {
     hir: &'h Hir,
     lines: Lines<'h>,
     data: Data,
-    /// Of each unit that is lowered; `None` for external and unreachable ones.
-    functions: IndexVec<PouId, Option<FuncId>>,
+    /// What names mean in what is lowered now.
+    view: View,
+    views: Vec<View>,
     /// Units that can be entered again while they run.
     recursive: IndexVec<PouId, bool>,
     natives: IndexVec<NativeId, NativeImport>,
@@ -86,9 +91,7 @@ pub fn lower(hir: &Hir, sources: &Sources) -> Result<Lowered, Vec<Diag>> {
     let data = Data::new(hir).map_err(|d| vec![d])?;
     let mut program = Program::new(hir, sources, data);
     let mut module = Module::default();
-    for id in hir.pous.indices().filter(|id| is_lowered(&hir.pous[*id])) {
-        module.functions.push(unit::function(&mut program, id));
-    }
+    view::units(&mut program, &mut module);
     let tasks = task::tasks(&mut program, &mut module);
     program.finish(module, tasks)
 }
@@ -115,13 +118,15 @@ impl<'h> Program<'h> {
             })
         };
         let functions = hir.pous.iter().map(number).collect();
+        let view = View { globals: data.globals.clone(), functions, ..View::default() };
         let (lines, recursive) = (Lines::new(sources), graph::recursive(hir));
         let referred = hir.types.iter().any(|(_, t)| matches!(t, Type::Pointer { .. }));
         let mut program = Program {
             hir,
             lines,
             data,
-            functions,
+            view,
+            views: Vec::new(),
             recursive,
             natives: IndexVec::new(),
             diags: Vec::new(),
@@ -145,7 +150,7 @@ impl<'h> Program<'h> {
             return Err(self.diags);
         }
         let retained = retain::retained(self.hir, &self.data).map_err(|d| vec![d])?;
-        let symbols = data::symbols(self.hir, &self.data);
+        let symbols = symbols::symbols(self.hir, &self.data);
         let Some((memory, init)) = self.data.finish(self.hir) else {
             return Err(vec![data::too_large(data::nowhere(), "the program")]);
         };

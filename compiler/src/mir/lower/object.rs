@@ -32,7 +32,7 @@ impl Unit<'_, '_> {
         args.extend(place);
         args.extend(given.iter().map(|(value, _)| self.address_of(*value)));
         let targets = call.targets();
-        match (&targets[..], self.program.functions[targets[0]]) {
+        match (&targets[..], self.program.view.functions[targets[0]]) {
             ([_], Some(function)) => self.f.emit(Op::Call { dst, function, args }),
             _ => self.call_chosen(this, &call.dynamic, dst, &args),
         }
@@ -65,7 +65,7 @@ impl Unit<'_, '_> {
         let mut blocks: Vec<(FuncId, BlockId)> = Vec::new();
         let mut cases = Vec::new();
         for (number, pou) in choices {
-            let Some(function) = self.program.functions[*pou] else { continue };
+            let Some(function) = self.program.view.functions[*pou] else { continue };
             let known = blocks.iter().find(|b| b.0 == function).map(|b| b.1);
             let block = known.unwrap_or_else(|| self.f.block());
             if known.is_none() {

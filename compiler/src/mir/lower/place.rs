@@ -117,7 +117,7 @@ impl Unit<'_, '_> {
             Base::Value(e) => (Loc::Register(self.value(e)), e.ty),
             Base::This => (Loc::Memory(self.this.expect("only types have instances")), self.this_type()),
             &Base::Var(v) => (self.home(v), self.var(v).ty),
-            &Base::Global(g) => (image_loc(self.program.data.globals[g]), self.hir.globals[g].ty),
+            &Base::Global(g) => (image_loc(self.program.view.globals[g]), self.hir.globals[g].ty),
             &Base::Image(place) => (image_loc(place), p.ty),
         }
     }

@@ -51,7 +51,7 @@ impl Program<'_> {
     pub fn prepare_pointers(&mut self) {
         let hir = self.hir;
         if has_pointers(hir) {
-            let lowered = hir.pous.enumerate().filter(|(id, _)| self.functions[*id].is_some());
+            let lowered = hir.pous.enumerate().filter(|(id, _)| self.view.functions[*id].is_some());
             lowered.map(|(id, pou)| (id, pou, taken(pou))).collect::<Vec<_>>().into_iter().for_each(|(id, pou, taken)| {
                 taken.into_iter().for_each(|(var, kept)| self.make_static(id, pou, var, kept));
             });

@@ -19,18 +19,18 @@ pub fn retained(hir: &Hir, data: &Data) -> Result<Vec<Retained>, Diag> {
     let mut walk = Walk { hir, units, plain: HashMap::new(), says: HashMap::new(), found: Vec::new() };
     for (id, g) in hir.globals.enumerate().filter(|(_, g)| !g.constant) {
         let root = Root::Global(id);
-        walk.variable(&At { root: &root, start: 0, span: g.span }, &g.name, g.ty, data.globals[id], g.keep)?;
+        walk.variable(&At { root: &root, start: 0, span: g.span }, &hir.global_path(g), g.ty, data.globals[id], g.keep)?;
     }
     let programs = hir.tasks.iter().zip(&data.instances).flat_map(|(t, offsets)| t.programs.iter().zip(offsets));
     for (p, offset) in programs {
         let (pou, root) = (&hir.pous[p.pou], p.root());
-        let at = At { root: &root, start: *offset, span: pou.end };
+        let (at, name) = (At { root: &root, start: *offset, span: pou.end }, hir.path(Some(p.resource), &p.name));
         if let Some(ty) = pou.instance.filter(|_| p.global.is_none()) {
-            walk.part(&at, p.name.clone(), ty, *offset, p.keep)?;
+            walk.part(&at, name.clone(), ty, *offset, p.keep)?;
         }
         for v in pou.vars.iter() {
             if let Storage::Image(place) = v.storage {
-                walk.variable(&at, &format!("{}.{}", p.name, v.name), v.ty, place, p.keep.or(v.keep))?;
+                walk.variable(&at, &format!("{name}.{}", v.name), v.ty, place, p.keep.or(v.keep))?;
             }
         }
     }

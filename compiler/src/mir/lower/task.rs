@@ -1,79 +1,58 @@
-//! Tasks: program instances with their entries and triggers. From: language reference §10.2, §10.3.
+//! Tasks: program instances and function blocks with their entries, and triggers. From: language reference §10.2, §10.3.
 
+use super::Program;
 use super::unit::Unit;
-use super::{Program, place};
 use crate::hir::model::*;
 use crate::mir::model::{Function, Module};
 use takt_base::index::Index;
-use takt_base::{Code, Diag};
-use takt_image::image::{self, Place as ImagePlace};
-use takt_image::{Type, TypeId};
+use takt_image::image;
 
-/// All tasks; adds the entries of programs with connections to the module.
+/// All tasks; adds the entries of what has connections or addresses to the module.
 pub fn tasks(program: &mut Program<'_>, module: &mut Module) -> Vec<image::Task> {
     let hir = program.hir;
     hir.tasks.iter().enumerate().map(|(i, t)| task(program, module, t, i)).collect()
 }
 
 fn task(program: &mut Program<'_>, module: &mut Module, t: &Task, number: usize) -> image::Task {
-    let trigger = t.single.as_ref().and_then(|p| fixed_place(program, p));
+    program.enter_resource(t.resource);
+    let hir = program.hir;
+    let name = hir.path(Some(t.resource), &t.name);
+    let trigger = t.single.as_ref().and_then(|spot| program.data.place(hir, spot));
     let offsets = program.data.instances[number].clone();
-    let programs = t.programs.iter().zip(offsets).map(|(p, offset)| entry(program, module, p, offset, t)).collect();
-    image::Task { name: t.name.clone(), priority: t.priority, interval: t.interval, trigger, programs }
+    let mut programs: Vec<_> =
+        t.programs.iter().zip(offsets).map(|(p, offset)| entry(program, module, p, offset, &name)).collect();
+    programs.extend(t.blocks.iter().map(|b| block(program, module, b, &name)));
+    image::Task { name, priority: t.priority, interval: t.interval, trigger, programs }
 }
 
-fn entry(program: &mut Program<'_>, module: &mut Module, p: &ProgramInstance, instance: u32, t: &Task) -> image::Program {
-    let connected = !p.inputs.is_empty() || !p.outputs.is_empty() || program.hir.mirrors.iter().any(|m| m.is_seen_by(p));
+fn entry(program: &mut Program<'_>, module: &mut Module, p: &ProgramInstance, instance: u32, task: &str) -> image::Program {
+    let name = program.hir.path(Some(p.resource), &p.name);
+    let root = p.root();
+    let connected = !p.inputs.is_empty() || !p.outputs.is_empty() || program.hir.mirrors.iter().any(|m| m.is_seen_by(&root));
     let function = if connected {
-        module.functions.push(wrapper(program, p, &t.name)).index() as u32
+        module.functions.push(wrapper(program, p, format!("{name}@{task}"))).index() as u32
     } else {
-        program.functions[p.pou].map_or(0, |f| f.0)
+        program.view.functions[p.pou].map_or(0, |f| f.0)
     };
-    image::Program { name: p.name.clone(), function, instance }
+    image::Program { name, function, instance }
 }
 
 /// Copies the inputs, runs the program, copies the outputs.
-fn wrapper(program: &mut Program<'_>, p: &ProgramInstance, task: &str) -> Function {
+fn wrapper(program: &mut Program<'_>, p: &ProgramInstance, name: String) -> Function {
     let pou = &program.hir.pous[p.pou];
     let mut unit = Unit::new(program, None, pou.end);
     unit.run_program(p);
-    unit.finish(format!("{}@{task}", p.name), pou.name.clone(), None, pou.end)
+    unit.finish(name, pou.name.clone(), None, pou.end)
 }
 
-/// A place that is known now; reports one that is not.
-fn fixed_place(program: &mut Program<'_>, p: &Place) -> Option<ImagePlace> {
-    let (mut at, mut ty) = match p.base {
-        Base::Global(g) => (program.data.globals[g], program.hir.globals[g].ty),
-        Base::Image(place) => (place, p.ty),
-        Base::Var(_) | Base::This | Base::Value(_) => return unfit(program, p),
-    };
-    for step in &p.path {
-        let Some(next) = fixed_step(program.hir, at, ty, step) else { return unfit(program, p) };
-        (at, ty) = next;
-    }
-    Some(at)
-}
-
-fn fixed_step(hir: &Hir, at: ImagePlace, ty: TypeId, step: &Step) -> Option<(ImagePlace, TypeId)> {
-    let ImagePlace::Byte(offset) = at else { return None };
-    match (step, hir.types.get(ty)) {
-        (Step::Field(i), _) => place::field(&hir.types, ty, *i).map(|f| (ImagePlace::Byte(offset + f.offset), f.ty)),
-        (Step::Part { bit, width: 1 }, _) => Some((ImagePlace::Bit(offset + bit / 8, (bit % 8) as u8), ty)),
-        (Step::Index(indices), Type::Array { element, dims }) => {
-            let mut flat = 0;
-            for (index, dim) in indices.iter().zip(dims) {
-                let ExprKind::Const(Const::Int(i)) = index.kind else { return None };
-                let from_low = u32::try_from(i - dim.low as i128).ok().filter(|d| *d < dim.len())?;
-                flat = flat * dim.len() + from_low;
-            }
-            Some((ImagePlace::Byte(offset + flat * hir.types.layout(*element).size), *element))
-        }
-        _ => None,
-    }
-}
-
-fn unfit(program: &mut Program<'_>, p: &Place) -> Option<ImagePlace> {
-    let diag = Diag::new(Code::BadTask, p.span, "has no fixed place");
-    program.diags.push(diag.help("SINGLE wants a global BOOL, a member of one, or a direct address such as %IX0.0"));
-    None
+fn block(program: &mut Program<'_>, module: &mut Module, b: &BoundBlock, task: &str) -> image::Program {
+    let hir = program.hir;
+    let (resource, owner) = program.data.program(hir, &b.program).unwrap_or_default();
+    let name = hir.path(Some(resource), &b.name);
+    let pou = &hir.pous[b.pou];
+    let mut unit = Unit::new(program, None, pou.end);
+    unit.run_block(b, owner);
+    let function = unit.finish(format!("{name}@{task}"), pou.name.clone(), None, pou.end);
+    let function = module.functions.push(function).index() as u32;
+    image::Program { name, function, instance: owner + b.offset }
 }

@@ -37,7 +37,7 @@ pub struct TaskDecl {
     pub priority: Option<Expr>,
 }
 
-/// `PROGRAM name WITH task : Type (in := global, out => global);`
+/// `PROGRAM name WITH task : Type (in := global, out => global, fb WITH task);`
 #[derive(Clone, Debug)]
 pub struct ProgramDecl {
     pub name: Name,
@@ -45,6 +45,8 @@ pub struct ProgramDecl {
     pub task: Option<Name>,
     pub ty: Name,
     pub connections: Vec<Arg>,
+    /// Function blocks with a task of their own: `fb WITH task`.
+    pub blocks: Vec<(Name, Name)>,
 }
 
 /// `Res.Prog.block[2].x`, `Res.%IX1.1`.
@@ -70,7 +72,7 @@ pub struct ConfigDecl {
     pub init: Option<Init>,
 }
 
-/// `ABLE : Res.Prog.x : INT READ_WRITE;` in VAR_ACCESS.
+/// `ABLE : Res.Prog.x : INT READ_WRITE;` in VAR_ACCESS of a configuration; in that of a program the path begins there.
 #[derive(Clone, Debug)]
 pub struct AccessDecl {
     pub name: Name,

@@ -36,11 +36,9 @@ impl Parser<'_> {
         (args, height)
     }
 
-    /// The arguments of a program in a resource; the opening parenthesis is the current token.
-    pub(super) fn connections(&mut self) -> Vec<Arg> {
-        let paren = self.here();
-        self.bump();
-        self.args(paren).0
+    /// A connection of a program in a resource.
+    pub(super) fn connection(&mut self) -> Arg {
+        self.arg(&mut 0)
     }
 
     fn arg(&mut self, height: &mut u32) -> Arg {

@@ -2,7 +2,7 @@
 //! From: IEC 61131-3 §6.8.2 (language reference §10.1).
 
 use super::cursor::Parser;
-use crate::syntax::ast::{Configuration, Expr, Name, ProgramDecl, Resource, TaskDecl};
+use crate::syntax::ast::{Configuration, Expr, ExprKind, Name, ProgramDecl, Resource, TaskDecl};
 use crate::syntax::keyword::Kw;
 use crate::syntax::lexer::Tok;
 use takt_base::Span;
@@ -28,10 +28,22 @@ impl Parser<'_> {
             }
         }
         if !direct.tasks.is_empty() || !direct.programs.is_empty() {
+            self.check_direct(&direct, &configuration);
             configuration.resources.insert(0, direct);
         }
+        configuration.access.append(&mut self.access_paths);
         self.close_declaration(Kw::EndConfiguration, opener, "CONFIGURATION");
         configuration
+    }
+
+    /// Tasks and programs stand in the configuration, or in its resources.
+    fn check_direct(&mut self, direct: &Resource, configuration: &Configuration) {
+        let first = direct.tasks.iter().map(|t| &t.name).chain(direct.programs.iter().map(|p| &p.name)).next();
+        if let (Some(name), false) = (first, configuration.resources.is_empty()) {
+            let diag = Diag::new(Code::Expected, name.span, "outside of the resources");
+            let diag = diag.message("tasks and programs stand in the CONFIGURATION or in its RESOURCEs, not in both");
+            self.soft(diag.help("move it into a RESOURCE"));
+        }
     }
 
     fn head_name(&mut self, what: &str, opener: Span) -> Name {
@@ -46,9 +58,8 @@ impl Parser<'_> {
         let opener = self.here();
         self.bump();
         let mut resource = empty_resource(Some(self.head_name("the name of the resource", opener)));
-        if self.eat_kw(Kw::On) && !self.eat(Tok::Word) {
-            self.expected("the type of the resource, for example PLC");
-            self.skip_head();
+        if self.eat_kw(Kw::On) {
+            self.resource_type();
         }
         while !self.at_end() && self.kw() != Kw::EndResource {
             match self.kw() {
@@ -59,6 +70,18 @@ impl Parser<'_> {
         }
         self.close_declaration(Kw::EndResource, opener, "RESOURCE");
         Some(resource)
+    }
+
+    /// The name of a controller, which means nothing here: any name does.
+    fn resource_type(&mut self) {
+        let mut named = self.eat(Tok::Word);
+        while named && self.eat(Tok::Dot) {
+            named = self.eat(Tok::Word);
+        }
+        if !named {
+            self.expected("the type of the resource, for example PLC");
+            self.skip_head();
+        }
     }
 
     /// A task or a program, with its `;`.
@@ -99,6 +122,13 @@ impl Parser<'_> {
 
     fn task_property(&mut self, task: &mut TaskDecl) {
         let property = self.name();
+        if property.key() == "MULTI" {
+            let diag = Diag::new(Code::NotSupportedYet, property.span, "several triggers for one task");
+            self.soft(diag.help("write a SINGLE, and set its variable where one of the signals rises"));
+            self.lost = true;
+            task.interval.get_or_insert(Expr { kind: ExprKind::Error, span: property.span });
+            return;
+        }
         if !self.expect(Tok::Assign, "`:=` and the value of the property") {
             return;
         }
@@ -136,17 +166,34 @@ impl Parser<'_> {
         }
         let ty = self.declared_name("the name of a PROGRAM")?;
         let ty = self.qualified(ty);
-        let connections = if self.at(Tok::LParen) { self.program_connections() } else { Vec::new() };
-        Some(ProgramDecl { name, retain, task, ty, connections })
+        let mut program = ProgramDecl { name, retain, task, ty, connections: Vec::new(), blocks: Vec::new() };
+        if self.at(Tok::LParen) {
+            self.connections(&mut program);
+        }
+        Some(program)
     }
 
-    fn program_connections(&mut self) -> Vec<crate::syntax::ast::Arg> {
-        if self.nth(1).kind == Tok::Word && self.nth(2).kw == Kw::With {
-            self.unsupported_here("a function block with a task of its own");
-            self.lost = true;
-            return Vec::new();
+    /// `(in := value, out => variable, fb WITH task)`; the opening parenthesis is the current token.
+    fn connections(&mut self, program: &mut ProgramDecl) {
+        let paren = self.here();
+        self.bump();
+        while !self.at(Tok::RParen) && !self.lost {
+            if self.at(Tok::Word) && self.nth(1).kw == Kw::With {
+                program.blocks.extend(self.block_task());
+            } else {
+                program.connections.push(self.connection());
+            }
+            if !self.eat(Tok::Comma) {
+                break;
+            }
         }
-        self.connections()
+        self.closing(Tok::RParen, ")", paren);
+    }
+
+    fn block_task(&mut self) -> Option<(Name, Name)> {
+        let block = self.declared_name("the name of a function block")?;
+        self.bump();
+        Some((block, self.declared_name("the name of a task")?))
     }
 }
 

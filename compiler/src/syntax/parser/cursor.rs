@@ -1,6 +1,6 @@
 //! The parser's place in the tokens, its nesting counter and its messages.
 
-use crate::syntax::ast::Name;
+use crate::syntax::ast::{AccessDecl, Name};
 use crate::syntax::keyword::Kw;
 use crate::syntax::lexer::{Tok, Token, Tokens};
 use crate::syntax::report::Report;
@@ -41,6 +41,8 @@ pub(super) struct Parser<'a> {
     pub(super) latin1: bool,
     /// Positions from the first to the second have no section keyword between; see `var`.
     pub(super) section_ahead: (usize, usize),
+    /// VAR_ACCESS of the unit or configuration at hand.
+    pub(super) access_paths: Vec<AccessDecl>,
 }
 
 impl<'a> Parser<'a> {
@@ -63,6 +65,7 @@ impl<'a> Parser<'a> {
             profile: file.profile,
             latin1: file.latin1,
             section_ahead: (0, 0),
+            access_paths: Vec::new(),
         }
     }
 

@@ -85,7 +85,8 @@ impl Parser<'_> {
         let inside = |at: &&(usize, Span)| (first..=self.pos).contains(&at.0);
         let inline_c = self.tokens.inline_c.iter().find(inside).map(|c| c.1);
         let result = result.filter(|_| kind == PouKind::Function);
-        Pou { kind, name, result, sections, body, objects, external, inline_c, test, span: self.since(opener) }
+        let paths = std::mem::take(&mut self.access_paths);
+        Pou { kind, name, result, sections, paths, body, objects, external, inline_c, test, span: self.since(opener) }
     }
 
     fn pou_head(&mut self, objects: &mut Objects) -> Option<Name> {

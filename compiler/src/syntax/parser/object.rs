@@ -120,6 +120,7 @@ impl Parser<'_> {
             name,
             result,
             sections,
+            paths: Vec::new(),
             body,
             objects,
             external: false,
@@ -226,7 +227,8 @@ impl Parser<'_> {
         }
         let objects = Objects { modifiers, accessor: Some(accessor), ..Objects::default() };
         let (kind, name) = (PouKind::Method, head.name.clone());
-        Pou { kind, name, result, sections, body, objects, external: false, inline_c: None, test: None, span: self.since(opener) }
+        let (span, paths) = (self.since(opener), Vec::new());
+        Pou { kind, name, result, sections, paths, body, objects, external: false, inline_c: None, test: None, span }
     }
 }
 

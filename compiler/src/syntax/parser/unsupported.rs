@@ -23,8 +23,14 @@ impl Parser<'_> {
 
     /// A construct of a file; false if none stands here.
     pub(super) fn unsupported_item(&mut self) -> bool {
-        if matches!(self.kw(), Kw::VarAccess | Kw::VarConfig) {
+        if self.kw() == Kw::VarConfig {
             self.var_section();
+            return true;
+        }
+        if self.kw() == Kw::VarAccess {
+            let diag = self.expected_diag("a declaration").help("VAR_ACCESS stands inside of a CONFIGURATION or a PROGRAM");
+            self.soft(diag);
+            self.skip_construct(Kw::VarAccess, Kw::EndVar);
             return true;
         }
         self.unsupported_construct()

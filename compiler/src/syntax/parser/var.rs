@@ -34,10 +34,15 @@ impl Parser<'_> {
         kw.is_section() || matches!(kw, Kw::VarStat | Kw::VarInst) && self.nth(1).kind == Tok::Word
     }
 
-    /// A section; its keyword is the current token. `None` if this version lacks it.
+    /// A section; its keyword is the current token. `None` if this version lacks it, and for VAR_ACCESS, whose paths are collected.
     pub(super) fn var_section(&mut self) -> Option<VarSection> {
         let start = self.here();
         let kw = self.kw();
+        if kw == Kw::VarAccess {
+            let paths = self.var_access();
+            self.access_paths.extend(paths);
+            return None;
+        }
         let Some(kind) = section_kind(kw) else {
             self.unsupported_here(kw.text());
             self.skip_construct(kw, Kw::EndVar);

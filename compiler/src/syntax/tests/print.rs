@@ -152,7 +152,15 @@ fn task(t: &TaskDecl) -> String {
 fn program(p: &ProgramDecl) -> String {
     let retain = optional(&p.retain, |r| if *r { "retain".into() } else { "non_retain".into() });
     let task = optional(&p.task, |t| format!("with {}", t.text));
-    list(["instance".into(), retain, p.name.text.clone(), task, format!(": {}", p.ty.text), all(&p.connections, arg)])
+    list([
+        "instance".into(),
+        retain,
+        p.name.text.clone(),
+        task,
+        format!(": {}", p.ty.text),
+        all(&p.connections, arg),
+        all(&p.blocks, |(b, t)| format!("({} with {})", b.text, t.text)),
+    ])
 }
 
 pub(super) fn stmts(list: &[Stmt]) -> String {

@@ -8,7 +8,14 @@ fn image() -> Image {
     let at = image.memory.data.start;
     for (name, ty, offset) in [("n", Type::Elementary(Elementary::Int), 0), ("s", Type::String { capacity: 7 }, 2)] {
         let ty = image.types.intern(ty);
-        image.symbols.push(Symbol { name: name.into(), ty, place: Place::Byte(at + offset), constant: false, retain: false });
+        image.symbols.push(Symbol {
+            name: name.into(),
+            ty,
+            place: Place::Byte(at + offset),
+            constant: false,
+            retain: false,
+            access: None,
+        });
     }
     image
 }
