@@ -72,6 +72,8 @@ pub struct Pou {
     pub end: Span,
     /// Reached from a task.
     pub reachable: bool,
+    /// Actions use its VAR_IN_OUT variables: after a call these are bound to nothing.
+    pub unbinds: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -541,6 +543,11 @@ impl Hir {
     pub fn extends(&self, sub: PouId, base: PouId) -> bool {
         let mut line = std::iter::successors(Some(sub), |id| self.pous[*id].base);
         line.any(|id| id == base)
+    }
+    /// True if the VAR_IN_OUT variables of the unit are bound to nothing after a call.
+    pub fn unbinds(&self, id: PouId) -> bool {
+        let mut line = std::iter::successors(Some(id), |id| self.pous[*id].base);
+        line.any(|id| self.pous[id].unbinds)
     }
     /// Storage type of a scalar.
     pub fn elementary(&self, ty: TypeId) -> Option<Elementary> {

@@ -149,7 +149,11 @@ impl Builder<'_> {
                 return None;
             }
         };
-        let own = matches!(place.base, Base::Var(_)) && place.path.is_empty();
+        let own = match place.base {
+            Base::Var(_) => place.path.is_empty(),
+            Base::This => matches!(place.path[..], [Step::Field(_)]), // a variable of the unit, in its methods and actions
+            _ => false,
+        };
         if !own && !self.profile(e.span).is_codesys() {
             let help = "count in a variable of this unit and copy it";
             self.report(Diag::new(Code::ForVariable, e.span, "not a variable of this unit").help(help));

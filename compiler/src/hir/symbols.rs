@@ -180,6 +180,7 @@ impl<'a> Builder<'a> {
             body: Vec::new(),
             end: end_keyword(decl),
             reachable: false,
+            unbinds: false,
         });
         id
     }

@@ -4,6 +4,7 @@ use super::builder::Builder;
 use super::constant;
 use super::declare::next;
 use super::model::*;
+use super::objects::has_actions;
 use super::scope::{Local, ReadOnly};
 use super::symbols::State;
 use super::types::TypeUse;
@@ -228,7 +229,11 @@ impl Builder<'_> {
             (Section::InOut, Role::InOut),
             (Section::Var, Role::Local),
             (Section::Hidden, Role::Hidden),
+            (Section::Hidden, Role::Temp),
         ] {
+            if role == Role::Temp && !has_actions(decl) {
+                continue; // they live on the frame of the body, where no action finds them
+            }
             let vars = self.hir.pous[id]
                 .vars
                 .enumerate()

@@ -112,6 +112,8 @@ pub struct Objects {
     pub methods: Vec<Pou>,
     /// GET or SET of a property, of which a method is made.
     pub accessor: Option<Accessor>,
+    /// An ACTION, of which a method is made.
+    pub action: bool,
 }
 
 /// Words in front of the name of a type or method, each with its place.

@@ -98,7 +98,8 @@ impl Builder<'_> {
             return;
         }
         let new = decl.name.span;
-        if modifiers.is_override.is_none() && decl.objects.accessor.is_none() && !self.profile(new).is_vendor() {
+        let wordless = decl.objects.accessor.is_some() || decl.objects.action;
+        if modifiers.is_override.is_none() && !wordless && !self.profile(new).is_vendor() {
             let label = format!("replaces `{}`", self.hir.pous[old].name);
             self.report(
                 Diag::new(Code::MissingOverride, new, label)

@@ -1,6 +1,7 @@
 //! Object orientation (§4.2 to §4.4): types with methods, inheritance, interfaces. The whole program is known, so dynamic binding needs
 //! no addresses of code: an instance begins with the number of its class, and a call chooses among the methods that it can mean.
 
+mod action;
 mod bind;
 mod call;
 mod check;
@@ -10,6 +11,8 @@ mod property;
 mod section;
 mod signature;
 mod value;
+
+pub(super) use action::has_actions;
 
 use super::builder::Builder;
 use super::model::*;

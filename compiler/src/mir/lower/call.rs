@@ -183,12 +183,25 @@ impl Unit<'_, '_> {
             None => self.call_native_block(pou, address),
         }
         self.write_back(back);
+        if self.hir.unbinds(id) && !is_own(instance) {
+            self.unbind(pou, this);
+        }
         for output in outputs {
             let var = &pou.vars[output.var];
             let Some(from) = self.pin(pou, this, var) else { continue };
             let (from_ty, to_ty) = output.convert.unwrap_or((var.ty, output.target.ty));
             let to = self.place(&output.target);
             self.copy_out(from, from_ty, to, to_ty, output.negated);
+        }
+    }
+
+    /// Takes back what the VAR_IN_OUT variables of an instance were bound to: an action that is called later must not find it.
+    fn unbind(&mut self, pou: &Pou, this: Addr) {
+        for var in pou.vars.iter().filter(|v| v.role == Role::InOut) {
+            if let Some(pin) = self.pin(pou, this, var) {
+                let nothing = self.f.int(Scalar::I32, 0);
+                self.f.store(pin, nothing);
+            }
         }
     }
 
@@ -283,4 +296,9 @@ impl Unit<'_, '_> {
             _ => unreachable!("a connected variable is a field or located"),
         }
     }
+}
+
+/// True for SUPER(): the call of a body within that of the same instance.
+fn is_own(instance: &Place) -> bool {
+    matches!(instance.base, Base::This) && instance.path.is_empty()
 }

@@ -35,8 +35,8 @@ impl Parser<'_> {
     /// True at a part of a unit that is no statement.
     pub(super) fn starts_unit_part(&self) -> bool {
         let kw = self.kw();
-        let part = matches!(kw, Kw::Action | Kw::Step | Kw::InitialStep | Kw::Transition | Kw::VarStat);
-        part && self.nth(1).kind == Tok::Word || self.starts_member()
+        let part = matches!(kw, Kw::Step | Kw::InitialStep | Kw::Transition | Kw::VarStat);
+        part && self.nth(1).kind == Tok::Word || self.starts_member() || self.starts_action()
     }
 
     /// True if the current word, keyword or not, is used as a name: `exit := TRUE`.

@@ -6,7 +6,7 @@ use crate::syntax::lexer::{Tok, is_graphic_body};
 use takt_base::Profile;
 use takt_base::diag::{Code, Diag};
 
-/// Declarations by opening and closing keyword.
+/// Declarations by opening and closing keyword that can't stand at file level.
 const CONSTRUCTS: [(Kw, Kw); 3] = [(Kw::Action, Kw::EndAction), (Kw::Actions, Kw::EndActions), (Kw::Resource, Kw::EndResource)];
 
 impl Parser<'_> {
@@ -36,12 +36,12 @@ impl Parser<'_> {
         if !kw.is_reserved() && self.nth(1).kind != Tok::Word {
             return false;
         }
-        if kw == Kw::Resource {
-            let diag = self.expected_diag("a declaration").help("a RESOURCE stands inside of a CONFIGURATION");
-            self.soft(diag);
-        } else {
-            self.unsupported_here(kw.text());
-        }
+        let help = match kw {
+            Kw::Resource => "a RESOURCE stands inside of a CONFIGURATION",
+            _ => "an action stands inside of its PROGRAM or FUNCTION_BLOCK, or directly behind it",
+        };
+        let diag = self.expected_diag("a declaration").help(help);
+        self.soft(diag);
         self.skip_construct(open, close);
         true
     }
@@ -49,7 +49,6 @@ impl Parser<'_> {
     /// A construct between the statements of a unit; false if none stands here.
     pub(super) fn unsupported_body(&mut self) -> bool {
         match self.kw() {
-            Kw::Action | Kw::Actions if self.nth(1).kind == Tok::Word => self.unsupported_construct(),
             Kw::InitialStep | Kw::Step | Kw::Transition if self.nth(1).kind == Tok::Word => {
                 self.unsupported_here("Sequential Function Chart");
                 self.skip_body();
