@@ -24,13 +24,14 @@ impl Builder<'_> {
                 "leave the body empty: it is provided by the controller",
             );
         }
-        let mut body = self.statements(&decl.body);
+        let mut body = self.late_locals(id);
+        body.extend(self.statements(&decl.body));
         body.extend(self.inherited_body(id, decl));
         if !self.is_signature(id) {
             self.check_result_written(id);
         }
         self.hir.pous[id].body = body;
-        self.scope = outer;
+        self.symbols.pous[id].scope = std::mem::replace(&mut self.scope, outer);
     }
 }
 

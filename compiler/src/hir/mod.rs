@@ -23,6 +23,7 @@ mod image;
 mod init;
 mod instance;
 mod label;
+mod late;
 mod lattice;
 pub mod model;
 mod objects;
@@ -32,6 +33,7 @@ mod program;
 mod reference;
 mod scope;
 mod space;
+mod startup;
 mod stmt;
 mod symbols;
 mod test_tasks;
@@ -75,6 +77,7 @@ fn passes<'a>(mut builder: Builder<'a>, files: &'a [(SourceId, ast::File)]) -> B
     if builder.tests {
         builder.test_tasks();
     }
+    builder.start_up();
     check::all(&mut builder);
     builder
 }

@@ -35,10 +35,23 @@ pub struct Hir {
     pub tasks: Vec<Task>,
     /// Variables of single instances that stand for an address, which VAR_CONFIG gives.
     pub mirrors: Vec<Mirror>,
+    /// What runs before the first scan.
+    pub start: Option<Start>,
     /// A program may be a variable too (vendor): its instance may be a global.
     pub programs_are_instances: bool,
     /// Bytes used in %I, %Q, %M: one past the highest address.
     pub image_bytes: [u32; 3],
+}
+
+/// Code that runs once before the first scan, see `hir::startup`.
+#[derive(Debug, Default)]
+pub struct Start {
+    /// Sets up the global variables.
+    pub globals: Option<PouId>,
+    /// Programs, each with the unit that sets up an instance of it.
+    pub programs: Vec<(PouId, PouId)>,
+    /// A retained BOOL that becomes TRUE behind all that.
+    pub kept: Option<GlobalId>,
 }
 
 /// A unit.

@@ -167,6 +167,8 @@ pub enum SectionKind {
     Temp,
     /// VAR_STAT (vendor).
     Stat,
+    /// VAR_INST (vendor): of a method, one for each instance.
+    Inst,
     Input,
     Output,
     InOut,
@@ -187,6 +189,8 @@ pub struct VarDecl {
     pub ty: TypeRef,
     /// R_EDGE or F_EDGE.
     pub edge: Option<Edge>,
+    /// `(a := 1)` behind the type (vendor): arguments of FB_init, or values of inputs.
+    pub arguments: Option<Init>,
     /// Initial value.
     pub init: Option<Init>,
     /// All of it.

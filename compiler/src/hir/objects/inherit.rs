@@ -160,6 +160,7 @@ impl Builder<'_> {
             first.init = Const::Int(number.into());
         }
         self.hir.pous[id].params = self.hir.pous[base].params.clone();
+        self.objects.taken_over.insert(base, vars.len());
         for (v, var) in vars.into_iter().enumerate() {
             let v = takt_base::index::Index::new(v);
             let access = self.objects.var_access.get(&(base, v)).copied();

@@ -9,6 +9,7 @@ use super::native::slot_of;
 use super::place::{Loc, field};
 use super::pointer::Purpose;
 use super::shape::Shape;
+use super::startup::FirstScan;
 use super::unit::Unit;
 use super::walk::argument_calls;
 use crate::hir::model::*;
@@ -235,9 +236,10 @@ impl Unit<'_, '_> {
     }
 
     /// The entry that a task runs for a program with connections: inputs, program, outputs (§10.3).
-    pub fn run_program(&mut self, instance: &ProgramInstance) {
+    pub fn run_program(&mut self, instance: &ProgramInstance, first: Option<FirstScan>) {
         let pou = &self.hir.pous[instance.pou];
         let this = self.instance_param(pou);
+        first.into_iter().for_each(|f| self.begin(f));
         for (var, value) in &instance.inputs {
             self.at_line(value.span);
             let var = &pou.vars[*var];

@@ -24,6 +24,7 @@ mod place;
 mod pointer;
 mod retain;
 mod shape;
+mod startup;
 mod stmt;
 mod task;
 mod time;
@@ -89,7 +90,8 @@ pub fn lower(hir: &Hir, sources: &Sources) -> Result<Lowered, Vec<Diag>> {
     for id in hir.pous.indices().filter(|id| is_lowered(&hir.pous[*id])) {
         module.functions.push(unit::function(&mut program, id));
     }
-    let tasks = task::tasks(&mut program, &mut module);
+    let first = startup::first_scan(&mut program, &mut module);
+    let tasks = task::tasks(&mut program, &mut module, first);
     program.finish(module, tasks)
 }
 

@@ -1,5 +1,6 @@
 //! Tasks: program instances with their entries and triggers. From: language reference §10.2, §10.3.
 
+use super::startup::FirstScan;
 use super::unit::Unit;
 use super::{Program, place};
 use crate::hir::model::*;
@@ -10,22 +11,29 @@ use takt_image::image::{self, Place as ImagePlace};
 use takt_image::{Type, TypeId};
 
 /// All tasks; adds the entries of programs with connections to the module.
-pub fn tasks(program: &mut Program<'_>, module: &mut Module) -> Vec<image::Task> {
+pub fn tasks(program: &mut Program<'_>, module: &mut Module, first: Option<FirstScan>) -> Vec<image::Task> {
     let hir = program.hir;
-    hir.tasks.iter().enumerate().map(|(i, t)| task(program, module, t, i)).collect()
+    hir.tasks.iter().enumerate().map(|(i, t)| task(program, module, first, t, i)).collect()
 }
 
-fn task(program: &mut Program<'_>, module: &mut Module, t: &Task, number: usize) -> image::Task {
+fn task(program: &mut Program<'_>, module: &mut Module, first: Option<FirstScan>, t: &Task, number: usize) -> image::Task {
     let trigger = t.single.as_ref().and_then(|p| fixed_place(program, p));
     let offsets = program.data.instances[number].clone();
-    let programs = t.programs.iter().zip(offsets).map(|(p, offset)| entry(program, module, p, offset, t)).collect();
+    let programs = t.programs.iter().zip(offsets).map(|(p, offset)| entry(program, module, first, p, offset, t)).collect();
     image::Task { name: t.name.clone(), priority: t.priority, interval: t.interval, trigger, programs }
 }
 
-fn entry(program: &mut Program<'_>, module: &mut Module, p: &ProgramInstance, instance: u32, t: &Task) -> image::Program {
-    let connected = !p.inputs.is_empty() || !p.outputs.is_empty() || program.hir.mirrors.iter().any(|m| m.is_seen_by(p));
+fn entry(
+    program: &mut Program<'_>,
+    module: &mut Module,
+    first: Option<FirstScan>,
+    p: &ProgramInstance,
+    instance: u32,
+    t: &Task,
+) -> image::Program {
+    let connected = first.is_some() || !p.inputs.is_empty() || !p.outputs.is_empty() || program.hir.mirrors.iter().any(|m| m.is_seen_by(p));
     let function = if connected {
-        module.functions.push(wrapper(program, p, &t.name)).index() as u32
+        module.functions.push(wrapper(program, first, p, &t.name)).index() as u32
     } else {
         program.functions[p.pou].map_or(0, |f| f.0)
     };
@@ -33,10 +41,10 @@ fn entry(program: &mut Program<'_>, module: &mut Module, p: &ProgramInstance, in
 }
 
 /// Copies the inputs, runs the program, copies the outputs.
-fn wrapper(program: &mut Program<'_>, p: &ProgramInstance, task: &str) -> Function {
+fn wrapper(program: &mut Program<'_>, first: Option<FirstScan>, p: &ProgramInstance, task: &str) -> Function {
     let pou = &program.hir.pous[p.pou];
     let mut unit = Unit::new(program, None, pou.end);
-    unit.run_program(p);
+    unit.run_program(p, first);
     unit.finish(format!("{}@{task}", p.name), pou.name.clone(), None, pou.end)
 }
 

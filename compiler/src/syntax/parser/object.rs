@@ -206,6 +206,7 @@ impl Parser<'_> {
                 relative: None,
                 ty: head.ty.clone(),
                 edge: None,
+                arguments: None,
                 init: None,
                 span,
             };

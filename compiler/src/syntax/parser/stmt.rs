@@ -35,7 +35,7 @@ impl Parser<'_> {
     /// True at a part of a unit that is no statement.
     pub(super) fn starts_unit_part(&self) -> bool {
         let kw = self.kw();
-        let part = matches!(kw, Kw::Step | Kw::InitialStep | Kw::Transition | Kw::VarStat);
+        let part = matches!(kw, Kw::Step | Kw::InitialStep | Kw::Transition | Kw::VarStat | Kw::VarInst);
         part && self.nth(1).kind == Tok::Word || self.starts_member() || self.starts_action()
     }
 
