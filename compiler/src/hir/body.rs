@@ -82,7 +82,7 @@ pub(super) fn expression_addresses<'t>(mut todo: Vec<&'t ast::Expr>, on: &mut dy
         match &e.kind {
             ExprKind::Direct(a) => on(a),
             ExprKind::Unary(_, a) | ExprKind::Deref(a) | ExprKind::Member(a, _) | ExprKind::Part { base: a, .. } => todo.push(a),
-            ExprKind::Binary(_, a, b) => todo.extend([&**a, &**b]),
+            ExprKind::Binary(_, a, b) | ExprKind::Assign { target: a, value: b } => todo.extend([&**a, &**b]),
             ExprKind::Index(a, list) => todo.extend(list.iter().chain([&**a])),
             ExprKind::Call { callee, args } => todo.extend(args.iter().filter_map(arg_expr).chain([&**callee])),
             ExprKind::Literal(_) | ExprKind::Name(_) | ExprKind::Enumerator { .. } | ExprKind::Null | ExprKind::Error => {}

@@ -128,7 +128,7 @@ impl Builder<'_> {
         }
         match &e.kind {
             E::Literal(_) | E::Enumerator { .. } | E::Null | E::Error => false,
-            E::Direct(_) | E::Deref(_) => true,
+            E::Direct(_) | E::Deref(_) | E::Assign { .. } => true,
             E::Name(n) => self.is_late_name(n),
             E::Unary(_, a) | E::Part { base: a, .. } => self.is_late(a),
             E::Binary(_, a, b) => self.is_late(a) || self.is_late(b),

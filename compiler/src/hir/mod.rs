@@ -30,6 +30,7 @@ mod objects;
 mod place;
 mod pointer;
 mod program;
+mod query;
 mod reference;
 mod scope;
 mod space;

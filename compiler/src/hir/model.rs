@@ -399,6 +399,8 @@ pub enum ExprKind {
     AddressOf(Place),
     /// The reference itself if its instance is of one of these classes, else NULL.
     OfClass(Box<Expr>, Vec<u32>),
+    /// Stores a scalar, and is the value that the place then has.
+    Stored(Box<(Place, Expr)>),
     Intrinsic(Intrinsic, Vec<Expr>),
     /// A call with EN or ENO: library errors give their stated value instead of a fault. Not run, it is zero.
     Guarded(Box<Guarded>),

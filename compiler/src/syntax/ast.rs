@@ -499,6 +499,11 @@ pub enum ExprKind {
         callee: Box<Expr>,
         args: Vec<Arg>,
     },
+    /// `(target := value)` (vendor): assigns, and is the value.
+    Assign {
+        target: Box<Expr>,
+        value: Box<Expr>,
+    },
     /// `r^`.
     Deref(Box<Expr>),
     /// NULL.

@@ -75,8 +75,13 @@ impl Builder<'_> {
         }
         let null = self.null_type();
         let ty = if ra && a.expr.ty != null { a.expr.ty } else { b.expr.ty };
+        let zero = |x: &Self, o: &Operand| {
+            let is_zero = matches!(&o.expr.kind, ExprKind::Const(Const::Int(0) | Const::Zero));
+            is_zero && x.profile(span).is_codesys() // `itf = 0` (vendor)
+        };
         let side = |x: &mut Self, o: &Operand| match is_reference(x, o.expr.ty) {
             true => Some(Expr { ty, ..o.expr.clone() }),
+            false if zero(x, o) => Some(constant_expr(Const::Int(0), ty, o.expr.span)),
             false if matches!(x.ty(o.expr.ty), Type::Instance(_)) && x.type_unit(ty).is_some() => x.interface_value(&o.expr, ty),
             false => None,
         };

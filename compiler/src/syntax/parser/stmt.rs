@@ -105,6 +105,7 @@ impl Parser<'_> {
             Kw::Continue => self.one_word(StmtKind::Continue),
             Kw::Return => self.return_statement(),
             Kw::Jmp if self.nth(1).kind == Tok::Word => self.jump_statement(),
+            Kw::None if self.is_word("__TRY") => self.try_statement(),
             _ if self.at(Tok::Word) && self.nth(1).kind == Tok::Colon && self.nth(2).kind != Tok::Eq => self.label_statement(),
             _ => self.assign_or_call(),
         }

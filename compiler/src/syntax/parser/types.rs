@@ -253,7 +253,8 @@ impl Parser<'_> {
         };
         self.bump();
         let capacity = if self.at(Tok::Star) {
-            self.unsupported_here("a string of variable length");
+            let diag = self.unsupported_diag("a string of variable length");
+            self.soft(diag.help("write the length of the longest string, and pass variables of that type"));
             self.bump();
             None
         } else {

@@ -1,6 +1,7 @@
 //! Parts of the language that this version lacks: one message, then on behind their end.
 
 use super::cursor::Parser;
+use crate::syntax::ast::StmtKind;
 use crate::syntax::keyword::Kw;
 use crate::syntax::lexer::{Tok, is_graphic_body};
 use takt_base::Profile;
@@ -63,6 +64,24 @@ impl Parser<'_> {
             }
             _ => false,
         }
+    }
+
+    pub(super) fn is_word(&self, word: &str) -> bool {
+        self.at(Tok::Word) && self.text_of(self.peek()).eq_ignore_ascii_case(word)
+    }
+
+    /// `__TRY .. __ENDTRY`.
+    pub(super) fn try_statement(&mut self) -> StmtKind {
+        let diag = self.unsupported_diag("__TRY");
+        self.soft(diag.help("a fault stops its task; test operands first, or call standard functions with ENO, which tells their errors"));
+        while !self.at_end() && !self.kw().ends_declaration() && !self.is_word("__ENDTRY") {
+            self.bump();
+        }
+        if self.is_word("__ENDTRY") {
+            self.bump();
+            self.eat(Tok::Semi);
+        }
+        StmtKind::Empty
     }
 
     /// To the end of the unit.

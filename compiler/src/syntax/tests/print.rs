@@ -223,6 +223,7 @@ pub(super) fn expr(e: &Expr) -> String {
         ExprKind::Index(base, items) => format!("{}[{}]", expr(base), all(items, expr)),
         ExprKind::Part { base, size, index } => format!("{}.%{}{index}", expr(base), letter(*size)),
         ExprKind::Call { callee, args } => list(["call".into(), expr(callee), all(args, arg)]),
+        ExprKind::Assign { target, value } => list([":=".into(), expr(target), expr(value)]),
         ExprKind::Deref(e) => list(["^".into(), expr(e)]),
         ExprKind::Null => "null".into(),
         ExprKind::Error => "?".into(),

@@ -21,7 +21,7 @@ fn sections_and_types() {
 
 #[test]
 fn statements() {
-    lacks("assignment inside", "PROGRAM p IF (x := y) THEN z(); END_IF; END_PROGRAM");
+    lacks("__TRY", "PROGRAM p VAR x : INT; END_VAR __TRY x := 1; __CATCH(e) x := 2; __FINALLY x := 3; __ENDTRY; END_PROGRAM");
     lacks("inline C", "PROGRAM p {extern int x;} x := 1; END_PROGRAM");
 }
 
