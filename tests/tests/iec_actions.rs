@@ -153,13 +153,20 @@ fn s4_7_an_in_out_outside_of_a_call_is_a_fault() {
 
 #[test]
 fn what_actions_can_not_have() {
-    let edge = "FUNCTION_BLOCK f VAR_INPUT c : BOOL R_EDGE; END_VAR VAR n : INT; END_VAR ACTION a: IF c THEN n := 1; END_IF; END_ACTION
+    let edge =
+        "FUNCTION_BLOCK f VAR_INPUT c : BOOL R_EDGE; END_VAR VAR n : INT; END_VAR ACTION a: IF c THEN n := 1; END_IF; END_ACTION
         a(); END_FUNCTION_BLOCK PROGRAM p VAR x : f; END_VAR x(); END_PROGRAM";
     assert_eq!(errors(Profile::Std, edge), [Code::NotSupportedYet]);
     assert_eq!(errors(Profile::Std, "FUNCTION f : INT f := 1; ACTION a: ; END_ACTION END_FUNCTION"), [Code::Expected]);
     assert_eq!(errors(Profile::Std, "TYPE t : INT; END_TYPE ACTION a: ; END_ACTION"), [Code::Expected]);
-    assert_eq!(errors(Profile::Std, "PROGRAM p ACTION a: ; END_ACTION ACTION A: ; END_ACTION END_PROGRAM"), [Code::DuplicateName]);
+    assert_eq!(
+        errors(Profile::Std, "PROGRAM p ACTION a: ; END_ACTION ACTION A: ; END_ACTION END_PROGRAM"),
+        [Code::DuplicateName]
+    );
     assert_eq!(errors(Profile::Std, "PROGRAM p VAR a : INT; END_VAR ACTION a: ; END_ACTION END_PROGRAM"), [Code::MemberClash]);
     assert_eq!(errors(Profile::Std, "PROGRAM p a(1); ACTION a: ; END_ACTION END_PROGRAM"), [Code::WrongArgumentCount]);
-    assert_eq!(errors(Profile::Std, "PROGRAM p VAR i : INT; END_VAR i := a(); ACTION a: ; END_ACTION END_PROGRAM"), [Code::NotCallable]);
+    assert_eq!(
+        errors(Profile::Std, "PROGRAM p VAR i : INT; END_VAR i := a(); ACTION a: ; END_ACTION END_PROGRAM"),
+        [Code::NotCallable]
+    );
 }

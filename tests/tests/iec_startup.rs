@@ -29,9 +29,10 @@ fn s3_1_initial_values_may_be_any_expression() {
         PROGRAM p VAR a : INT := 3; b : INT := a * 2 + h; c : INT := double(x := b); n : INT; END_VAR
           n := n + 1; a := 100; END_PROGRAM";
     check(&format!("{DOUBLE}{text}"), 2, &[("g", "8"), ("h", "9"), ("p.b", "15"), ("p.c", "30"), ("p.n", "2")]);
-    assert_eq!(errors(Profile::Std, &format!("{DOUBLE} PROGRAM p VAR a : INT := 3; b : INT := double(a); END_VAR ; END_PROGRAM")), [
-        Code::NotConstant
-    ]);
+    assert_eq!(
+        errors(Profile::Std, &format!("{DOUBLE} PROGRAM p VAR a : INT := 3; b : INT := double(a); END_VAR ; END_PROGRAM")),
+        [Code::NotConstant]
+    );
 }
 
 #[test]
@@ -67,15 +68,8 @@ fn s3_1_each_instance_and_each_call_has_its_own() {
         FUNCTION f : INT VAR_INPUT a : INT; END_VAR VAR l : INT := a * 3; m : INT := l + 1; END_VAR f := m; END_FUNCTION
         PROGRAM p VAR x : b; y : b := (i := 10); z : ARRAY[0..2] OF b; r, s : INT; END_VAR
           x(); y(); z[1](); r := f(1); s := f(2); END_PROGRAM";
-    let want = [
-        ("p.x.q", "9"),
-        ("p.y.q", "21"),
-        ("p.y.x", "30"),
-        ("p.z[1].x", "18"),
-        ("p.z[2].x", "8"),
-        ("p.r", "4"),
-        ("p.s", "7"),
-    ];
+    let want =
+        [("p.x.q", "9"), ("p.y.q", "21"), ("p.y.x", "30"), ("p.z[1].x", "18"), ("p.z[2].x", "8"), ("p.r", "4"), ("p.s", "7")];
     check(&format!("{DOUBLE}{text}"), 1, &want);
 }
 
@@ -146,7 +140,8 @@ fn s4_4_wrong_arguments_of_fb_init() {
 /// In profile `std` FB_init is a method like any other, and says so.
 #[test]
 fn life_cycle_methods_that_nobody_calls() {
-    let text = "FUNCTION_BLOCK f VAR n : INT; END_VAR METHOD PUBLIC FB_init n := 1; END_METHOD METHOD PUBLIC FB_exit n := 2; END_METHOD
+    let text =
+        "FUNCTION_BLOCK f VAR n : INT; END_VAR METHOD PUBLIC FB_init n := 1; END_METHOD METHOD PUBLIC FB_exit n := 2; END_METHOD
         n := n + 10; END_FUNCTION_BLOCK PROGRAM p VAR x : f; END_VAR x(); END_PROGRAM";
     let warnings = |profile| compile_in(profile, text).diags.iter().filter(|d| d.code == Code::NotSupportedYet).count();
     assert_eq!((warnings(Profile::Std), warnings(Profile::Codesys)), (2, 1));
@@ -179,6 +174,35 @@ fn s3_6_retained_values_win() {
     second.iter().for_each(|(n, v)| assert_eq!(plc.get(n), *v, "{n}"));
 }
 
+/// Section 18, example 10: three counters over a warm and a cold start.
+#[test]
+fn s18_10_restart() {
+    let text =
+        "PROGRAM p VAR a : INT := 3; END_VAR VAR RETAIN b : INT := 1; END_VAR VAR NON_RETAIN c : INT := 2; END_VAR ; END_PROGRAM";
+    let values = |plc: &Plc| ["p.a", "p.b", "p.c"].map(|n| plc.get(n));
+    let mut plc = Plc::new(text);
+    [("p.a", "30"), ("p.b", "10"), ("p.c", "20")].iter().for_each(|(n, v)| plc.set(n, v));
+    plc.scans(1);
+    let kept = plc.kept();
+    let mut warm = Plc::new(text);
+    warm.restore(&kept);
+    warm.scans(1);
+    assert_eq!(values(&warm), ["3", "10", "2"]);
+    let mut cold = Plc::new(text);
+    cold.scans(1);
+    assert_eq!(values(&cold), ["3", "1", "2"]);
+}
+
+/// What goes wrong is a fault of the first scan, with its place.
+#[test]
+fn s3_1_a_fault_in_an_initial_value() {
+    let mut plc = codesys("PROGRAM p VAR z : INT; x : INT := 5 / z; n : INT; END_VAR\nn := n + 1; END_PROGRAM");
+    let fault = plc.scan(0).expect_err("a fault");
+    assert_eq!((fault.trap, fault.line), (takt_image::Trap::DivisionByZero, 1));
+    plc.scan(10).expect("the start is over");
+    assert_eq!(plc.get("p.n"), "1");
+}
+
 #[test]
 fn s3_1_var_inst_is_one_for_each_instance() {
     let text = "FUNCTION_BLOCK f
@@ -191,9 +215,10 @@ fn s3_1_var_inst_is_one_for_each_instance() {
         PROGRAM p VAR a, b : f; c : g; x, y, z, o, k : INT; END_VAR
           x := a.next(); x := a.next(); y := b.next(); o := a.other(); z := c.third(); k := a.count + a.count; END_PROGRAM";
     check(text, 1, &[("p.x", "121"), ("p.y", "111"), ("p.o", "5"), ("p.z", "118"), ("p.k", "3")]);
-    assert_eq!(errors(Profile::Std, "FUNCTION_BLOCK f METHOD m VAR_INST x : INT; END_VAR ; END_METHOD END_FUNCTION_BLOCK"), [
-        Code::VendorForm
-    ]);
+    assert_eq!(
+        errors(Profile::Std, "FUNCTION_BLOCK f METHOD m VAR_INST x : INT; END_VAR ; END_METHOD END_FUNCTION_BLOCK"),
+        [Code::VendorForm]
+    );
     let outside = "FUNCTION f : INT VAR_INST x : INT; END_VAR f := 1; END_FUNCTION";
     assert_eq!(errors(Profile::Codesys, outside), [Code::SectionNotAllowed]);
 }

@@ -52,6 +52,8 @@ pub struct Start {
     pub programs: Vec<(PouId, PouId)>,
     /// A retained BOOL that becomes TRUE behind all that.
     pub kept: Option<GlobalId>,
+    /// The tasks are unit tests: each sets up its own programs only.
+    pub alone: bool,
 }
 
 /// A unit.

@@ -51,7 +51,11 @@ impl Builder<'_> {
         }
         self.codesys_form(name, key);
         let [ast::Arg::Positional(from), ast::Arg::Positional(to)] = args else {
-            self.error(Code::WrongArgumentCount, span, format!("{key} has two arguments: what is asked, and where the answer goes"));
+            self.error(
+                Code::WrongArgumentCount,
+                span,
+                format!("{key} has two arguments: what is asked, and where the answer goes"),
+            );
             return Some(self.bad(span));
         };
         let stored = if key == "__QUERYPOINTER" { self.queried_pointer(from, to) } else { self.queried_interface(from, to) };

@@ -47,7 +47,7 @@ impl Builder<'_> {
                 start.programs.push((pou, setup));
             }
         }
-        start.kept = self.objects.kept_mark;
+        (start.kept, start.alone) = (self.objects.kept_mark, self.tests);
         if start.globals.is_some() || !start.programs.is_empty() {
             self.hir.start = Some(start);
         }
@@ -147,9 +147,7 @@ impl Builder<'_> {
 
     /// The function that sets up all global variables.
     fn setup_globals(&mut self) -> Option<PouId> {
-        let needs = |b: &Self, g: GlobalId| {
-            b.startup.late.contains_key(&Owner::Global(g)) || b.type_starts(b.hir.globals[g].ty)
-        };
+        let needs = |b: &Self, g: GlobalId| b.startup.late.contains_key(&Owner::Global(g)) || b.type_starts(b.hir.globals[g].ty);
         let globals: Vec<GlobalId> = self.hir.globals.indices().filter(|g| needs(self, *g)).collect();
         let span = globals.first().map(|g| self.hir.globals[*g].span)?;
         let outer = std::mem::take(&mut self.scope);

@@ -179,6 +179,9 @@ impl Builder<'_> {
         if matches!(role, Role::Input | Role::Output | Role::InOut) {
             self.hir.pous[id].params.push(var);
         }
+        if role == Role::InOut {
+            self.note_open_string(id, var, &d.ty);
+        }
         let constant = section.constant && role != Role::Input;
         if constant || role == Role::Input {
             self.scope.read_only.insert(var, if constant { ReadOnly::Constant } else { ReadOnly::Input });

@@ -301,9 +301,10 @@ pub struct TypeRef {
 pub enum TypeRefKind {
     /// Elementary, derived or POU name.
     Named(Name),
-    /// `STRING`, `STRING[80]`, `STRING(80)`; `wide`: WSTRING.
+    /// `STRING`, `STRING[80]`, `STRING(80)`; `wide`: WSTRING; `open`: `STRING[*]` (vendor).
     String {
         wide: bool,
+        open: bool,
         capacity: Option<Box<Expr>>,
     },
     /// `INT (0..9)`.

@@ -91,7 +91,13 @@ impl Builder<'_> {
     }
 
     /// The call with what is said about it. A declared ENO is among its arguments.
-    pub(in crate::hir) fn guarded(&mut self, call: Operand, en: Option<Expr>, mut eno: Option<Eno>, declared: Declared) -> Operand {
+    pub(in crate::hir) fn guarded(
+        &mut self,
+        call: Operand,
+        en: Option<Expr>,
+        mut eno: Option<Eno>,
+        declared: Declared,
+    ) -> Operand {
         if self.is_bad(&call) {
             return call;
         }

@@ -125,7 +125,9 @@ impl Builder<'_> {
         let name = &decl.name;
         let label = "a method like any other here";
         let message = match () {
-            () if name.is("FB_INIT") && !self.profile(name.span).is_codesys() => "FB_init runs at the start in the CODESYS profiles only",
+            () if name.is("FB_INIT") && !self.profile(name.span).is_codesys() => {
+                "FB_init runs at the start in the CODESYS profiles only"
+            }
             () if name.is("FB_REINIT") => "FB_reinit is not called: a program is not changed while it runs",
             () if name.is("FB_EXIT") => "FB_exit is not called: instances last until the controller stops",
             () => return,

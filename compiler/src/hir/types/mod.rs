@@ -45,7 +45,8 @@ impl Builder<'_> {
     fn type_kind(&mut self, t: &ast::TypeRef) -> TypeUse {
         match &t.kind {
             ast::TypeRefKind::Named(name) => self.named_type(name),
-            ast::TypeRefKind::String { wide, capacity } => self.string_type(*wide, capacity.as_deref(), t.span),
+            ast::TypeRefKind::String { open: true, .. } => self.misplaced_open_string(t.span),
+            ast::TypeRefKind::String { wide, capacity, .. } => self.string_type(*wide, capacity.as_deref(), t.span),
             ast::TypeRefKind::Subrange { base, low, high } => self.subrange(None, base, low, high, t.span),
             ast::TypeRefKind::Array { dims, element } => self.array_type(dims, element, t.span),
             ast::TypeRefKind::Enum(decl) => self.anonymous_enum(decl),

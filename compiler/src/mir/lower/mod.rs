@@ -90,8 +90,7 @@ pub fn lower(hir: &Hir, sources: &Sources) -> Result<Lowered, Vec<Diag>> {
     for id in hir.pous.indices().filter(|id| is_lowered(&hir.pous[*id])) {
         module.functions.push(unit::function(&mut program, id));
     }
-    let first = startup::first_scan(&mut program, &mut module);
-    let tasks = task::tasks(&mut program, &mut module, first);
+    let tasks = task::tasks(&mut program, &mut module);
     program.finish(module, tasks)
 }
 

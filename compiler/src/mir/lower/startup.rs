@@ -19,8 +19,8 @@ pub struct FirstScan {
     done: u32,
 }
 
-/// Adds the function to the module, if there is something to do.
-pub fn first_scan(program: &mut Program<'_>, module: &mut Module) -> Option<FirstScan> {
+/// Adds the function to the module, if there is something to do; `task`: for the programs of this task only.
+pub fn first_scan(program: &mut Program<'_>, module: &mut Module, task: Option<usize>) -> Option<FirstScan> {
     let hir = program.hir;
     let start = hir.start.as_ref()?;
     let Some(done) = program.data.reserve_bytes(1, 1) else {
@@ -28,7 +28,7 @@ pub fn first_scan(program: &mut Program<'_>, module: &mut Module) -> Option<Firs
         return None;
     };
     let mut unit = Unit::new(program, None, start.span(hir));
-    unit.set_up_all(start, done);
+    unit.set_up_all(start, done, task);
     let function = module.functions.push(unit.finish("start".into(), "start".into(), None, start.span(hir)));
     Some(FirstScan { function, done })
 }
@@ -41,14 +41,15 @@ impl Start {
 }
 
 impl Unit<'_, '_> {
-    fn set_up_all(&mut self, start: &Start, done: u32) {
+    fn set_up_all(&mut self, start: &Start, done: u32, task: Option<usize>) {
         let one = self.f.int(Scalar::I8, 1);
         self.f.store(fixed(done), one);
         if let Some(function) = start.globals.and_then(|id| self.program.functions[id]) {
             self.f.emit(Op::Call { dst: None, function, args: Vec::new() });
         }
-        let tasks = self.hir.tasks.iter().zip(self.program.data.instances.clone());
-        let instances: Vec<_> = tasks.flat_map(|(t, offsets)| t.programs.iter().zip(offsets)).collect();
+        let tasks = self.hir.tasks.iter().zip(self.program.data.instances.clone()).enumerate();
+        let wanted = tasks.filter(|(i, _)| task.is_none_or(|t| t == *i));
+        let instances: Vec<_> = wanted.flat_map(|(_, (t, offsets))| t.programs.iter().zip(offsets)).collect();
         for (p, offset) in instances.into_iter().filter(|(p, _)| p.global.is_none()) {
             let setup = start.programs.iter().find(|s| s.0 == p.pou).and_then(|s| self.program.functions[s.1]);
             if let Some(function) = setup {

@@ -1,6 +1,6 @@
 //! Tasks: program instances with their entries and triggers. From: language reference §10.2, §10.3.
 
-use super::startup::FirstScan;
+use super::startup::{FirstScan, first_scan};
 use super::unit::Unit;
 use super::{Program, place};
 use crate::hir::model::*;
@@ -11,9 +11,16 @@ use takt_image::image::{self, Place as ImagePlace};
 use takt_image::{Type, TypeId};
 
 /// All tasks; adds the entries of programs with connections to the module.
-pub fn tasks(program: &mut Program<'_>, module: &mut Module, first: Option<FirstScan>) -> Vec<image::Task> {
+pub fn tasks(program: &mut Program<'_>, module: &mut Module) -> Vec<image::Task> {
     let hir = program.hir;
-    hir.tasks.iter().enumerate().map(|(i, t)| task(program, module, first, t, i)).collect()
+    let alone = hir.start.as_ref().is_some_and(|s| s.alone);
+    let all = if alone { None } else { first_scan(program, module, None) };
+    let mut list = Vec::new();
+    for (i, t) in hir.tasks.iter().enumerate() {
+        let first = if alone { first_scan(program, module, Some(i)) } else { all };
+        list.push(task(program, module, first, t, i));
+    }
+    list
 }
 
 fn task(program: &mut Program<'_>, module: &mut Module, first: Option<FirstScan>, t: &Task, number: usize) -> image::Task {
@@ -31,7 +38,8 @@ fn entry(
     instance: u32,
     t: &Task,
 ) -> image::Program {
-    let connected = first.is_some() || !p.inputs.is_empty() || !p.outputs.is_empty() || program.hir.mirrors.iter().any(|m| m.is_seen_by(p));
+    let connected =
+        first.is_some() || !p.inputs.is_empty() || !p.outputs.is_empty() || program.hir.mirrors.iter().any(|m| m.is_seen_by(p));
     let function = if connected {
         module.functions.push(wrapper(program, first, p, &t.name)).index() as u32
     } else {

@@ -73,7 +73,11 @@ impl Parser<'_> {
     /// `__TRY .. __ENDTRY`.
     pub(super) fn try_statement(&mut self) -> StmtKind {
         let diag = self.unsupported_diag("__TRY");
-        self.soft(diag.help("a fault stops its task; test operands first, or call standard functions with ENO, which tells their errors"));
+        self.soft(
+            diag.help(
+                "a fault stops its task; test operands first, or call standard functions with ENO, which tells their errors",
+            ),
+        );
         while !self.at_end() && !self.kw().ends_declaration() && !self.is_word("__ENDTRY") {
             self.bump();
         }

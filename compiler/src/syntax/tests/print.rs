@@ -72,7 +72,14 @@ fn var(v: &VarDecl) -> String {
     let names = all(&v.names, |n| n.text.clone());
     let at = optional(&v.at, |a| format!("at {}", address(a)));
     let edge = optional(&v.edge, |e| format!("{e:?}").to_lowercase());
-    list([names, at, format!(": {}", type_ref(&v.ty)), edge, optional(&v.arguments, init), optional(&v.init, |i| format!(":= {}", init(i)))])
+    list([
+        names,
+        at,
+        format!(": {}", type_ref(&v.ty)),
+        edge,
+        optional(&v.arguments, init),
+        optional(&v.init, |i| format!(":= {}", init(i))),
+    ])
 }
 
 fn type_decl(t: &TypeDecl) -> String {
@@ -96,7 +103,7 @@ fn enumeration(e: &EnumDecl) -> String {
 fn type_ref(t: &TypeRef) -> String {
     match &t.kind {
         TypeRefKind::Named(n) => n.text.clone(),
-        TypeRefKind::String { wide, capacity } => {
+        TypeRefKind::String { wide, capacity, .. } => {
             let name = if *wide { "WSTRING" } else { "STRING" };
             format!("{name}{}", optional(capacity, |c| format!("[{}]", expr(c))))
         }
