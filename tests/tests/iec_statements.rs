@@ -19,6 +19,14 @@ const STATEMENTS: &[Row] = &[
         "n=1 m=2 k=0",
     ),
     (
+        "5.5",
+        "FUNCTION pick : STRING[4] VAR_IN_OUT n : INT; END_VAR n := n + 1; pick := 'bc'; END_FUNCTION",
+        "s : STRING := 'x'; w : WSTRING[3] := \"ab\"; n, a, b, c : INT;",
+        "CASE s OF 'a': a := 1; 'y', 'x': a := 2; s := 'a'; 'z': a := 3; ELSE a := 4; END_CASE;
+        CASE pick(n) OF 'b': b := 1; 'bc': b := 2; END_CASE; CASE w OF \"b\": c := 1; ELSE c := 2; END_CASE;",
+        "a=2 b=2 c=2 n=1",
+    ),
+    (
         "5.6",
         "",
         "i, n, e : INT; u : USINT; b : INT;",
@@ -148,6 +156,17 @@ const LISTS: &[Row] = &[
     ("6.2", "", "w : BYTE := 4;", "\nLD w\nNOT\nST w\n", "w=251"),
 ];
 
+/// Section 6.2: the assignment attempt of edition 3.
+#[test]
+fn s6_2_st_with_a_question_mark() {
+    let objects = "INTERFACE A END_INTERFACE INTERFACE B END_INTERFACE FUNCTION_BLOCK both IMPLEMENTS A, B END_FUNCTION_BLOCK
+        FUNCTION_BLOCK one IMPLEMENTS A END_FUNCTION_BLOCK
+        FUNCTION take VAR_IN_OUT a : A; f : both; END_VAR a := f; END_FUNCTION FUNCTION drop VAR_IN_OUT a : A; f : one; END_VAR a := f; END_FUNCTION";
+    let vars = "x : both; y : one; a : A; b : B; t, u : BOOL; END_VAR VAR first : BOOL := TRUE;";
+    let body = "\ntake(\na := a,\nf := x\n)\nLD a\nST? b\nLD b\nNE NULL\nST t\ndrop(\na := a,\nf := y\n)\nLD a\nST? b\nLD b\nEQ NULL\nST u\n";
+    run(Profile::Std, &[("6.2", objects, vars, body, "t=TRUE u=TRUE")]);
+}
+
 #[test]
 fn s5_statements() {
     run(Profile::Std, STATEMENTS);
@@ -169,6 +188,7 @@ fn s5_and_s6_what_is_refused() {
         ("5.5", with("r : REAL;", "CASE r OF 1: ; END_CASE;"), "P2003"),
         ("5.5", with("i : INT;", "CASE i OF 1..3: ; 3: ; END_CASE;"), "P3004"),
         ("5.5", with("i, j : INT;", "CASE i OF j: ; END_CASE;"), "P2005"),
+        ("5.5", with("s : STRING;", "CASE s OF 'a', 'b': ; 'a': ; 'c'..'d': ; s: ; END_CASE;"), "P3004 P2003 P2005"),
         ("5.6", with("i : INT;", "FOR i := 1 TO 3 DO i := 2; END_FOR;"), "P3005"),
         ("5.6", with("i : INT;", "FOR i := 1 TO 3 BY 0 DO ; END_FOR;"), "P3006"),
         ("5.6", with("r : REAL;", "FOR r := 1 TO 3 DO ; END_FOR;"), "P3005"),

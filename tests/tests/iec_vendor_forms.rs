@@ -112,6 +112,45 @@ const STRINGS: &[Row] = &[
         FUNCTION wide VAR_IN_OUT w : WSTRING[*]; END_VAR w := CONCAT(w, \"z\"); END_FUNCTION", "a : STRING[5] := 'ab'; w : WSTRING[2] := \"xy\";", "outer(a); wide(w);", "a='Ab!' w=\"xy\""),
 ];
 
+const STARTS: &[Row] = &[
+    (
+        "3.1",
+        "FUNCTION_BLOCK f VAR me : POINTER TO f := THIS; n : INT := get() + 1; m : INT := THIS^.get() + later; later : INT := 5; END_VAR
+        METHOD get : INT get := 7; END_METHOD END_FUNCTION_BLOCK",
+        "x : f; y : INT := x.n; b : INT := c + 1; c : INT := 4; q : POINTER TO f; t : BOOL;",
+        "q := ADR(x); t := q = x.me;",
+        "x.n=8 x.m=12 y=8 b=5 t=TRUE",
+    ),
+    (
+        "3.1",
+        "FUNCTION_BLOCK f VAR r : REFERENCE TO INT; n : INT; END_VAR
+        METHOD FB_init : BOOL VAR_INPUT bInitRetains, bInCopyCode : BOOL; x : REFERENCE TO INT; END_VAR THIS^.r REF= x; END_METHOD
+        n := r; r := 9; END_FUNCTION_BLOCK",
+        "i : INT := 6; x : f(x := i);",
+        "x();",
+        "x.n=6 i=9",
+    ),
+    (
+        "5.5",
+        "",
+        "n, m : INT; k : INT := 5;",
+        "CASE k OF 1..4: n := 1; 3..5: n := 2; 4..9: n := 3; END_CASE; CASE n OF 2: m := 1; 2: m := 2; END_CASE;",
+        "n=2 m=1",
+    ),
+    (
+        "4.5",
+        "FUNCTION_BLOCK f VAR_OUTPUT q : INT; END_VAR ; END_FUNCTION_BLOCK ACTION up: q := q + 1; END_ACTION",
+        "x : f; n : INT;",
+        "\nCAL add()\nCAL add\nCAL x.up()\nLD n\nEQ 20\nCALC x.up\nACTION add: n := n + 10; END_ACTION\n",
+        "n=20 x.q=2",
+    ),
+];
+
+#[test]
+fn s3_1_more_initial_values_and_calls() {
+    run(Profile::Codesys, STARTS);
+}
+
 #[test]
 fn s2_7_strings_of_any_length() {
     run(Profile::Codesys, STRINGS);

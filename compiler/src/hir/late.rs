@@ -146,14 +146,23 @@ impl Builder<'_> {
             Some(Local::Var(v)) => self.scope.read_only.get(&v) != Some(&ReadOnly::Constant),
             Some(Local::Member(v)) => self.scope.fixed_members.get(&v) != Some(&ReadOnly::Constant),
             Some(Local::External(g)) => !self.hir.globals[g].constant,
-            None if self.is_this(name) || self.named_program(name).is_some() => true,
+            None if self.is_this(name) || self.named_program(name).is_some() || self.is_declared_below(name) => true,
             None => self.global_id(name).is_some_and(|g| !self.hir.globals[g].constant),
         }
+    }
+
+    /// A variable of the unit whose declaration comes later: it has its constant value by then.
+    fn is_declared_below(&self, name: &ast::Name) -> bool {
+        let sections = self.scope.pou.iter().flat_map(|id| &self.symbols.pous[*id].decl.sections);
+        sections.flat_map(|s| &s.decls).flat_map(|d| &d.names).any(|n| n.is(&name.text))
     }
 
     fn is_late_call(&self, callee: &ast::Expr, args: &[ast::Arg]) -> bool {
         let E::Name(name) = &callee.kind else { return true };
         let key = name.key();
+        if self.own_type().is_some_and(|own| self.find_method(own, &key).is_some()) {
+            return true;
+        }
         if self.local(&key).is_none() && self.unit(name).is_none() {
             let mut list = args.iter().filter_map(super::body::arg_expr);
             match &*key {

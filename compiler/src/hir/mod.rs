@@ -38,6 +38,7 @@ mod startup;
 mod stmt;
 mod symbols;
 mod test_tasks;
+mod text_case;
 mod types;
 mod unit;
 mod vendor;
