@@ -57,6 +57,13 @@ fn s3_1_parts_of_arrays_and_structures() {
         ("p.w", "'k5'"),
     ];
     check(&format!("{DOUBLE}{text}"), 1, &want);
+    let open = "PROGRAM p VAR k : INT; o AT %Q* : INT := k; END_VAR ; END_PROGRAM CONFIGURATION c RESOURCE r ON x PROGRAM q : p; END_RESOURCE
+        VAR_CONFIG q.o AT %QW0 : INT; END_VAR END_CONFIGURATION";
+    assert_eq!(errors(Profile::Codesys, open), [Code::NotConstant]);
+    let configured =
+        "PROGRAM p VAR k : INT; o : INT := k; END_VAR ; END_PROGRAM CONFIGURATION c RESOURCE r ON x PROGRAM q : p; END_RESOURCE
+        VAR_CONFIG q.o : INT := 3; END_VAR END_CONFIGURATION";
+    assert_eq!(errors(Profile::Codesys, configured), [Code::NotConfigurable]);
     let repeat = "PROGRAM p VAR k : INT; l : ARRAY[1..4] OF INT := [4(k)]; END_VAR ; END_PROGRAM";
     assert_eq!(errors(Profile::Codesys, repeat), [Code::NotConstant]);
 }

@@ -118,7 +118,7 @@ impl Builder<'_> {
         let called = self.hir.pous[id].kind.is_called_by_value();
         let late = match section.kind {
             SectionKind::Input | SectionKind::InOut => !called && section.kind == SectionKind::Input,
-            _ => !section.constant,
+            _ => !section.constant && d.at.as_ref().is_none_or(|at| !at.path.is_empty()),
         };
         let first = next(&self.hir.pous[id].vars);
         let owners: Vec<Owner> = (0..d.names.len().max(1)).map(|i| Owner::Var(id, VarId::new(first.index() + i))).collect();
