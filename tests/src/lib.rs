@@ -1,5 +1,6 @@
 //! What the tests of the whole share: random numbers, random programs, whole programs on both engines, readers of conformance tables.
 
+pub mod cases;
 pub mod cycle_table;
 pub mod differential;
 pub mod expression_table;

@@ -5,6 +5,7 @@ use takt_base::diag::render;
 use takt_base::{Nanos, Profile, Severity};
 use takt_compiler::driver::{Compilation, File, Project, compile};
 use takt_compiler::mir::Interpreter;
+use takt_image::retain::{RetainMap, Start};
 use takt_image::value::{read, write_text};
 use takt_image::{Engine, Fault, Image, Trap, header, path};
 use takt_runtime::NativeEngine;
@@ -141,6 +142,22 @@ impl Plc {
     pub fn get(&self, name: &str) -> String {
         let v = path::resolve(&self.image, name).unwrap_or_else(|e| panic!("{e}"));
         read(&self.image.types, &self.sides[0].memory, v.place, v.ty).expect("in memory").to_string()
+    }
+
+    /// The stored form of the retained variables.
+    pub fn kept(&self) -> Vec<u8> {
+        let map = RetainMap::new(&self.image);
+        let mut copy = vec![0; map.bytes()];
+        map.capture(&self.sides[0].memory, &mut copy);
+        map.encode(&copy, 0)
+    }
+
+    /// Puts retained variables back, as a warm start does before the first scan.
+    pub fn restore(&mut self, kept: &[u8]) {
+        let map = RetainMap::new(&self.image);
+        for side in &mut self.sides {
+            map.restore(kept, &mut side.memory, Start::Warm).expect("not damaged");
+        }
     }
 
     /// Sets a variable from a literal, on both sides.

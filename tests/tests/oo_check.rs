@@ -147,7 +147,8 @@ fn the_vendors_ask_for_less() {
     assert_eq!(found(Profile::Codesys, text), Vec::<String>::new());
     assert_eq!(found(Profile::Std, text), ["P3042", "wP1020", "wP1020"]);
     let init = "FUNCTION_BLOCK F METHOD FB_init : BOOL VAR_INPUT bInitRetains, bInCopyCode : BOOL; END_VAR FB_init := TRUE; END_METHOD END_FUNCTION_BLOCK";
-    assert_eq!(found(Profile::Codesys, init), ["wP0012"]);
+    assert_eq!(found(Profile::Codesys, init), Vec::<String>::new());
+    assert_eq!(found(Profile::Codesys, &init.replace("FB_init", "FB_exit")), ["wP0012"]);
 }
 
 #[test]

@@ -225,3 +225,25 @@ fn s10_2_one_scheduler_runs_the_tasks_of_all_resources() {
     let got = timed(&text, &[(3, "go", "TRUE")], &["A.p.n", "B.p.n", "B.k.n"], 5);
     assert_eq!(got, ["B.t@0 0 1 0", "A.slow@0 1 1 0", "B.t@2 1 2 0", "B.key@3 1 2 1", "B.t@4 1 3 1", "A.slow@4 2 3 1"]);
 }
+
+/// What is computed before the first scan is computed for each resource, with its globals, also if a block with a task runs first.
+#[test]
+fn s3_1_values_computed_at_the_start_are_those_of_the_resource() {
+    let units = "FUNCTION scaled : INT VAR_INPUT f : INT; END_VAR VAR_EXTERNAL n : INT; END_VAR scaled := f * n; END_FUNCTION
+        FUNCTION_BLOCK Sensor VAR_EXTERNAL n : INT; END_VAR VAR base : INT := n + 1; seen : INT; END_VAR
+          METHOD FB_init : BOOL VAR_INPUT bInitRetains, bInCopyCode : BOOL; END_VAR base := base + scaled(100); END_METHOD
+          seen := seen + base; END_FUNCTION_BLOCK
+        PROGRAM Main VAR_EXTERNAL n : INT; END_VAR VAR s : Sensor; x : INT := scaled(10); y : INT := n; END_VAR s(); END_PROGRAM";
+    let text = two(
+        units,
+        "",
+        "VAR_GLOBAL n : INT := 1; END_VAR TASK t (INTERVAL := T#10ms, PRIORITY := 1); PROGRAM p WITH t : Main;",
+        "VAR_GLOBAL n : INT := 2; END_VAR TASK t (INTERVAL := T#10ms, PRIORITY := 0); TASK u (INTERVAL := T#10ms, PRIORITY := 0);
+         PROGRAM p WITH t : Main (s WITH u);",
+        "",
+    );
+    let mut plc = Plc::new_in(Profile::Codesys, &text);
+    plc.scan(0).unwrap();
+    check(&plc, &[("A.p.x", "10"), ("A.p.y", "1"), ("A.p.s.base", "102"), ("A.p.s.seen", "102")]);
+    check(&plc, &[("B.p.x", "20"), ("B.p.y", "2"), ("B.p.s.base", "203"), ("B.p.s.seen", "203")]);
+}

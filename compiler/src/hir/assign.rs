@@ -73,7 +73,7 @@ impl Builder<'_> {
     }
 
     /// A place that a VAR_IN_OUT of type `ty` can be bound to (§4.7).
-    pub fn bindable(&mut self, e: &ast::Expr, ty: TypeId, note: (Span, String)) -> Option<Place> {
+    pub fn bindable(&mut self, e: &ast::Expr, ty: TypeId, note: (Span, String), param: Option<(PouId, VarId)>) -> Option<Place> {
         let place = self.writable(e)?;
         if place.ty == self.error || ty == self.error {
             return None;
@@ -83,6 +83,9 @@ impl Builder<'_> {
             let label = "a part of a variable, which has no address of its own";
             self.report(Diag::new(Code::NotAVariable, e.span, label).also(note.0, note.1).help(help));
             return None;
+        }
+        if param.is_some_and(|(id, var)| self.takes_string(id, var, place.ty)) {
+            return Some(place);
         }
         if place.ty != ty && !self.open_takes(ty, place.ty) && !self.derives(place.ty, ty) {
             let label = format!("{}, exactly {} wanted", self.show(place.ty), self.show(ty));

@@ -39,7 +39,8 @@ impl Builder<'_> {
                 "leave the body empty: it is provided by the controller",
             );
         }
-        let mut body = self.statements(&decl.body);
+        let mut body = self.late_locals(id);
+        body.extend(self.statements(&decl.body));
         body.extend(self.inherited_body(id, decl));
         if !self.is_signature(id) {
             self.check_result_written(id);
@@ -96,7 +97,7 @@ pub(super) fn expression_addresses<'t>(mut todo: Vec<&'t ast::Expr>, on: &mut dy
         match &e.kind {
             ExprKind::Direct(a) => on(a),
             ExprKind::Unary(_, a) | ExprKind::Deref(a) | ExprKind::Member(a, _) | ExprKind::Part { base: a, .. } => todo.push(a),
-            ExprKind::Binary(_, a, b) => todo.extend([&**a, &**b]),
+            ExprKind::Binary(_, a, b) | ExprKind::Assign { target: a, value: b } => todo.extend([&**a, &**b]),
             ExprKind::Index(a, list) => todo.extend(list.iter().chain([&**a])),
             ExprKind::Call { callee, args } => todo.extend(args.iter().filter_map(arg_expr).chain([&**callee])),
             ExprKind::Literal(_) | ExprKind::Name(_) | ExprKind::Enumerator { .. } | ExprKind::Null | ExprKind::Error => {}

@@ -58,6 +58,12 @@ pub(super) struct Builder<'a> {
     pub values: BTreeMap<Root, Const>,
     /// Implicit instances of programs (vendor).
     pub program_globals: HashMap<PouId, GlobalId>,
+    /// VAR_IN_OUT strings that are declared without a length.
+    pub open_strings: HashSet<(PouId, VarId)>,
+    /// What happens before the first scan.
+    pub startup: super::startup::Startup,
+    /// Parts of the initial value at hand that are computed later, if they may be.
+    pub late_now: Option<super::late::Found>,
     leaves: usize,
     depth: u32,
 }
@@ -92,6 +98,9 @@ impl<'a> Builder<'a> {
             planned: Vec::new(),
             values: BTreeMap::new(),
             program_globals: HashMap::new(),
+            open_strings: HashSet::new(),
+            startup: super::startup::Startup::default(),
+            late_now: None,
             leaves: 0,
             depth: 0,
         }

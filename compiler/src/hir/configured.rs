@@ -41,8 +41,19 @@ impl Builder<'_> {
         if let Some(at) = &decl.at {
             self.config_address(&found, at, decl.path.span, given);
         }
-        if let Some(init) = &decl.init {
+        if let Some(init) = decl.init.as_ref().filter(|_| self.is_computed(found.last)) {
+            self.not_configurable(init.span(), "its value is computed at the start", "give its declaration a constant value");
+        } else if let Some(init) = &decl.init {
             self.config_value(&found, init);
+        }
+    }
+
+    /// True for a variable whose initial value is no constant (vendor).
+    fn is_computed(&self, last: Last) -> bool {
+        match last {
+            Last::Global(g) => self.startup.late.contains_key(&super::late::Owner::Global(g)),
+            Last::Var(pou, v) => self.line(pou).iter().any(|t| self.startup.late.contains_key(&super::late::Owner::Var(*t, v))),
+            _ => false,
         }
     }
 

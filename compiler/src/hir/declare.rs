@@ -2,6 +2,7 @@
 
 use super::builder::Builder;
 use super::constant;
+use super::late::Owner;
 use super::model::*;
 use super::symbols::State;
 use crate::syntax::ast;
@@ -60,8 +61,15 @@ impl Builder<'_> {
         if self.hir.globals[id].constant {
             self.check_constant_value(decl, used.ty, &used.default);
         }
-        let init = decl.init.as_ref().map_or_else(|| used.default.clone(), |i| self.initial(i, &used));
-        let span = self.hir.globals[id].span;
+        let owner = Owner::Global(id);
+        let init = self.declared_value(decl, &used, !self.hir.globals[id].constant, &[owner]);
+        let (span, keep) = (self.hir.globals[id].span, self.hir.globals[id].keep);
+        if self.startup.late.contains_key(&owner) && keep.is_kept() {
+            let bool = self.bool();
+            let mark = self.new_global(format!("{}.set", self.hir.globals[id].name), bool, Const::Zero, span);
+            self.hir.globals[mark].keep = keep;
+            self.startup.marks.insert(owner, Owner::Global(mark));
+        }
         self.check_constant_instance(self.hir.globals[id].constant, used.ty, span);
         let kept = self.charge(constant::leaves(&init), decl.span);
         self.hir.globals[id].init = if kept { init } else { Const::Zero };

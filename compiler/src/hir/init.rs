@@ -4,6 +4,7 @@
 use super::builder::Builder;
 use super::constant;
 use super::convert::Operand;
+use super::late::Part;
 use super::model::*;
 use super::types::TypeUse;
 use super::types::layout::shifted;
@@ -23,6 +24,10 @@ impl Builder<'_> {
             return Const::Zero;
         }
         match init {
+            Init::Expr(e) if self.is_late(e) => {
+                self.put_off(e, used.ty);
+                used.default.clone()
+            }
             Init::Expr(e) => self.initial_value(e, used),
             Init::Array(list, span) => match self.array_parts(used.ty) {
                 Some((element, dims)) => {
@@ -53,7 +58,7 @@ impl Builder<'_> {
             return self.bad_initial(e.span, used.ty, "another type");
         }
         let found = if let ExprKind::Load(place) = &o.expr.kind { self.constant_at(place) } else { None };
-        if found.is_none() {
+        if found.is_none() && !self.put_off(e, used.ty) {
             self.not_constant(e.span);
         }
         found.unwrap_or(Const::Zero)
@@ -68,6 +73,7 @@ impl Builder<'_> {
         match value.kind {
             _ if value.ty == self.error => Const::Zero,
             ExprKind::Const(c) => constant::normal(c),
+            _ if self.put_off(e, ty) => Const::Zero,
             _ => {
                 self.not_constant(e.span);
                 Const::Zero
@@ -160,7 +166,9 @@ impl Builder<'_> {
             return;
         }
         let start = fill.parts.len();
+        let late = if n == 1 { None } else { self.late_now.take() }; // a repeated value is computed once: it is constant
         list.iter().for_each(|init| self.fill_one(fill, init, default));
+        self.late_now = self.late_now.take().or(late);
         let once: Vec<Const> = fill.parts[start..].to_vec();
         let leaves = once.iter().map(constant::leaves).sum::<usize>();
         let times = n.saturating_sub(1).min(fill.room / once.len().max(1) + 1);
@@ -185,7 +193,7 @@ impl Builder<'_> {
             fill.surplus.get_or_insert(init.span());
             return;
         }
-        let value = self.initial(init, &used);
+        let value = self.in_part(Part::Element(fill.parts.len()), |b| b.initial(init, &used));
         fill.push(value, init.span());
     }
 
@@ -196,7 +204,7 @@ impl Builder<'_> {
             Const::Aggregate(parts) => Const::Aggregate(parts.iter().skip(start).take(row).cloned().collect()),
             _ => Const::Zero,
         };
-        match self.initial_array(list, fill.element, &inner, &default, span) {
+        match self.in_row(start, |b| b.initial_array(list, fill.element, &inner, &default, span)) {
             Const::Aggregate(parts) => parts.into_iter().for_each(|c| fill.push(c, span)),
             _ if self.charge(row, span) => (0..row.min(fill.room + 1)).for_each(|_| fill.push(Const::Zero, span)),
             _ => fill.cut = true,
@@ -231,7 +239,7 @@ impl Builder<'_> {
             let bit = self.bit_members.get(&(used.ty, i as u32)).copied();
             let ty = if bit.is_some() { self.bool() } else { fields[i].ty };
             let part = TypeUse { ty, default: parts[i].clone() };
-            parts[i] = shifted(self.initial(init, &part), bit);
+            parts[i] = shifted(self.in_part(Part::Field(i as u32), |b| b.initial(init, &part)), bit);
         }
         self.charge(parts.iter().map(constant::leaves).sum(), span);
         constant::aggregate(parts)

@@ -25,19 +25,23 @@ mod image;
 mod init;
 mod instance;
 mod label;
+mod late;
 mod lattice;
 pub mod model;
 mod objects;
 mod place;
 mod pointer;
 mod program;
+mod query;
 mod reference;
 mod resource;
 mod scope;
 mod space;
+mod startup;
 mod stmt;
 mod symbols;
 mod test_tasks;
+mod text_case;
 mod types;
 mod unit;
 mod vendor;
@@ -78,6 +82,7 @@ fn passes<'a>(mut builder: Builder<'a>, files: &'a [(SourceId, ast::File)]) -> B
     if builder.tests {
         builder.test_tasks();
     }
+    builder.start_up();
     check::all(&mut builder);
     builder
 }

@@ -44,10 +44,25 @@ pub struct Hir {
     pub accesses: Vec<AccessPath>,
     /// Variables of single instances that stand for an address, which VAR_CONFIG gives.
     pub mirrors: Vec<Mirror>,
+    /// What runs before the first scan.
+    pub start: Option<Start>,
     /// A program may be a variable too (vendor): its instance may be a global.
     pub programs_are_instances: bool,
     /// Bytes used in %I, %Q, %M: one past the highest address.
     pub image_bytes: [u32; 3],
+}
+
+/// Code that runs once before the first scan, see `hir::startup`.
+#[derive(Debug, Default)]
+pub struct Start {
+    /// Sets up the global variables.
+    pub globals: Option<PouId>,
+    /// Programs, each with the unit that sets up an instance of it.
+    pub programs: Vec<(PouId, PouId)>,
+    /// A retained BOOL that becomes TRUE behind all that.
+    pub kept: Option<GlobalId>,
+    /// The tasks are unit tests: each sets up its own programs only.
+    pub alone: bool,
 }
 
 /// A unit.
@@ -81,6 +96,8 @@ pub struct Pou {
     pub end: Span,
     /// Reached from a task.
     pub reachable: bool,
+    /// Actions use its VAR_IN_OUT variables: after a call these are bound to nothing.
+    pub unbinds: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -331,6 +348,8 @@ pub enum ExprKind {
     AddressOf(Place),
     /// The reference itself if its instance is of one of these classes, else NULL.
     OfClass(Box<Expr>, Vec<u32>),
+    /// Stores a scalar, and is the value that the place then has.
+    Stored(Box<(Place, Expr)>),
     Intrinsic(Intrinsic, Vec<Expr>),
     /// A call with EN or ENO: library errors give their stated value instead of a fault. Not run, it is zero.
     Guarded(Box<Guarded>),
@@ -492,6 +511,11 @@ impl Hir {
     pub fn extends(&self, sub: PouId, base: PouId) -> bool {
         let mut line = std::iter::successors(Some(sub), |id| self.pous[*id].base);
         line.any(|id| id == base)
+    }
+    /// True if the VAR_IN_OUT variables of the unit are bound to nothing after a call.
+    pub fn unbinds(&self, id: PouId) -> bool {
+        let mut line = std::iter::successors(Some(id), |id| self.pous[*id].base);
+        line.any(|id| self.pous[id].unbinds)
     }
     /// Storage type of a scalar.
     pub fn elementary(&self, ty: TypeId) -> Option<Elementary> {

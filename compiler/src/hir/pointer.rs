@@ -27,6 +27,9 @@ impl Builder<'_> {
             };
             return Some(self.bound_of(array, dim, key == "UPPER_BOUND", span));
         }
+        if let Some(o) = self.query_call(&key, args, name.span, span) {
+            return Some(o);
+        }
         let one = match args {
             [ast::Arg::Positional(e) | ast::Arg::Input { value: Some(e), .. }] => Some(e),
             _ => None,

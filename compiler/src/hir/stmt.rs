@@ -149,7 +149,11 @@ impl Builder<'_> {
                 return None;
             }
         };
-        let own = matches!(place.base, Base::Var(_)) && place.path.is_empty();
+        let own = match place.base {
+            Base::Var(_) => place.path.is_empty(),
+            Base::This => matches!(place.path[..], [Step::Field(_)]), // a variable of the unit, in its methods and actions
+            _ => false,
+        };
         if !own && !self.profile(e.span).is_codesys() {
             let help = "count in a variable of this unit and copy it";
             self.report(Diag::new(Code::ForVariable, e.span, "not a variable of this unit").help(help));
@@ -167,7 +171,11 @@ impl Builder<'_> {
     }
 
     fn case(&mut self, selector: &ast::Expr, arms: &[ast::CaseArm], otherwise: Option<&[ast::Stmt]>) -> Option<StmtKind> {
-        let selector = self.selector(selector);
+        let o = self.operand(selector, None);
+        if self.is_string(o.expr.ty) {
+            return self.case_of_text(o, arms, otherwise);
+        }
+        let selector = self.selector(selector, o);
         let ty = selector.as_ref().map(|s| s.ty);
         let mut taken: Vec<(i128, i128, Span)> = Vec::new();
         let mut out = Vec::new();
@@ -180,8 +188,7 @@ impl Builder<'_> {
         Some(StmtKind::Case { selector: selector?, arms: out, otherwise })
     }
 
-    fn selector(&mut self, e: &ast::Expr) -> Option<Expr> {
-        let o = self.operand(e, None);
+    fn selector(&mut self, e: &ast::Expr, o: Operand) -> Option<Expr> {
         if self.is_bad(&o) {
             return None;
         }
@@ -220,6 +227,10 @@ impl Builder<'_> {
             let before = at.checked_sub(1).and_then(|i| taken.get(i)).filter(|t| t.1 >= label.0);
             let clash = before.or_else(|| taken.get(at).filter(|t| t.0 <= label.1));
             if let Some(&(_, _, first)) = clash {
+                if self.profile(label.2).is_codesys() {
+                    out.extend(self.not_covered(label, first, taken));
+                    continue;
+                }
                 self.report(Diag::new(Code::DuplicateCaseLabel, label.2, "covered again").also(first, "covered first"));
                 continue;
             }
@@ -227,6 +238,25 @@ impl Builder<'_> {
             out.push((label.0, label.1));
         }
         out
+    }
+
+    /// The values of a label that no earlier one has (vendor: the first that fits runs).
+    fn not_covered(&mut self, label: (i128, i128, Span), first: Span, taken: &mut Vec<(i128, i128, Span)>) -> Vec<(i128, i128)> {
+        let diag = Diag::new(Code::DuplicateCaseLabel, label.2, "covered again").also(first, "covered first");
+        self.report(diag.severity(takt_base::Severity::Warning).help("the first one runs"));
+        let (mut low, mut free) = (label.0, Vec::new());
+        for t in taken.iter().filter(|t| t.1 >= label.0 && t.0 <= label.1) {
+            if t.0 > low {
+                free.push((low, t.0 - 1));
+            }
+            low = low.max(t.1 + 1);
+        }
+        if low <= label.1 {
+            free.push((low, label.1));
+        }
+        taken.extend(free.iter().map(|f| (f.0, f.1, label.2)));
+        taken.sort_by_key(|t| t.0);
+        free
     }
 
     /// A call as a statement.

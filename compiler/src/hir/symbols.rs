@@ -184,6 +184,7 @@ impl<'a> Builder<'a> {
             body: Vec::new(),
             end: end_keyword(decl),
             reachable: false,
+            unbinds: false,
         });
         id
     }

@@ -3,12 +3,15 @@
 use super::builder::Builder;
 use super::constant;
 use super::declare::next;
+use super::late::Owner;
 use super::model::*;
+use super::objects::has_actions;
 use super::scope::{Local, ReadOnly};
 use super::symbols::State;
 use super::types::TypeUse;
 use super::types::structure::Member;
 use crate::syntax::ast::{self, SectionKind};
+use takt_base::index::Index;
 use takt_base::{Code, Diag, Span};
 use takt_image::types::{Section, Type};
 use takt_image::{Elementary, TypeId};
@@ -49,11 +52,15 @@ impl Builder<'_> {
         let sections = decl.sections.iter().filter(constant).chain(decl.sections.iter().filter(|s| !constant(s)));
         for section in sections {
             self.check_section(decl, section);
+            if section.kind == SectionKind::Inst {
+                self.declare_instance_variables(id, decl, section);
+            }
             for d in &section.decls {
                 self.declare_vars(id, decl, section, d);
             }
         }
         if !kind.is_called_by_value() {
+            self.add_instance_variables(id, decl);
             self.lay_out(id, decl);
         }
     }
@@ -97,6 +104,9 @@ impl Builder<'_> {
         if section.kind == SectionKind::Global {
             return;
         }
+        if section.kind == SectionKind::Inst {
+            return; // see `resolve_pou`
+        }
         if section.kind == SectionKind::Stat {
             return self.declare_static(id, pou, section, d);
         }
@@ -108,11 +118,31 @@ impl Builder<'_> {
         if section.constant && section.kind == SectionKind::Var {
             self.check_constant_value(d, used.ty, &used.default);
         }
-        let init = d.init.as_ref().map_or_else(|| used.default.clone(), |i| self.initial(i, &used));
+        let called = self.hir.pous[id].kind.is_called_by_value();
+        let late = match section.kind {
+            SectionKind::Input | SectionKind::InOut => !called && section.kind == SectionKind::Input,
+            _ => !section.constant && d.at.as_ref().is_none_or(|at| !at.path.is_empty()),
+        };
+        let first = next(&self.hir.pous[id].vars);
+        let owners: Vec<Owner> = (0..d.names.len().max(1)).map(|i| Owner::Var(id, VarId::new(first.index() + i))).collect();
+        let init = self.declared_value(d, &used, late, &owners);
         let used = TypeUse { default: init, ..used };
         let anonymous = d.names.is_empty().then(|| d.at.as_ref().map(super::image::name_of)).flatten();
         for name in d.names.iter().chain(anonymous.as_ref()) {
             self.declare_var(id, pou, section, d, name, &used);
+        }
+        if !called && section.kind != SectionKind::Temp {
+            self.mark_late(id, d, &owners, Keep::of(section));
+        }
+    }
+
+    /// Marks behind variables whose values are computed at the start: these may be restored instead.
+    fn mark_late(&mut self, id: PouId, d: &ast::VarDecl, owners: &[Owner], keep: Keep) {
+        for (name, owner) in d.names.iter().zip(owners) {
+            if self.startup.late.contains_key(owner) {
+                let mark = self.add_mark(id, name, keep);
+                self.startup.marks.insert(*owner, Owner::Var(id, mark));
+            }
         }
     }
 
@@ -155,6 +185,9 @@ impl Builder<'_> {
         if matches!(role, Role::Input | Role::Output | Role::InOut) {
             self.hir.pous[id].params.push(var);
         }
+        if role == Role::InOut {
+            self.note_open_string(id, var, &d.ty);
+        }
         let constant = section.constant && role != Role::Input;
         if constant || role == Role::Input && !copied_back {
             self.scope.read_only.insert(var, if constant { ReadOnly::Constant } else { ReadOnly::Input });
@@ -179,7 +212,9 @@ impl Builder<'_> {
     fn declare_static(&mut self, id: PouId, pou: &ast::Pou, section: &ast::VarSection, d: &ast::VarDecl) {
         let used = self.type_ref(&d.ty);
         self.check_decl(pou, section, d, used.ty);
-        let init = d.init.as_ref().map_or_else(|| used.default.clone(), |i| self.initial(i, &used));
+        let first = next(&self.hir.globals);
+        let owners: Vec<Owner> = (0..d.names.len()).map(|i| Owner::Global(GlobalId::new(first.index() + i))).collect();
+        let init = self.declared_value(d, &used, false, &owners);
         for name in &d.names {
             let full = format!("{}.{}", self.hir.pous[id].name, name.text);
             let init = if self.charge(constant::leaves(&init) - 1, name.span) { init.clone() } else { Const::Zero };
@@ -243,7 +278,11 @@ impl Builder<'_> {
             (Section::InOut, Role::InOut),
             (Section::Var, Role::Local),
             (Section::Hidden, Role::Hidden),
+            (Section::Hidden, Role::Temp),
         ] {
+            if role == Role::Temp && !has_actions(decl) {
+                continue; // they live on the frame of the body, where no action finds them
+            }
             let vars = self.hir.pous[id]
                 .vars
                 .enumerate()

@@ -116,6 +116,8 @@ pub struct Objects {
     pub methods: Vec<Pou>,
     /// GET or SET of a property, of which a method is made.
     pub accessor: Option<Accessor>,
+    /// An ACTION, of which a method is made.
+    pub action: bool,
 }
 
 /// Words in front of the name of a type or method, each with its place.
@@ -169,6 +171,8 @@ pub enum SectionKind {
     Temp,
     /// VAR_STAT (vendor).
     Stat,
+    /// VAR_INST (vendor): of a method, one for each instance.
+    Inst,
     Input,
     Output,
     InOut,
@@ -189,6 +193,8 @@ pub struct VarDecl {
     pub ty: TypeRef,
     /// R_EDGE or F_EDGE.
     pub edge: Option<Edge>,
+    /// `(a := 1)` behind the type (vendor): arguments of FB_init, or values of inputs.
+    pub arguments: Option<Init>,
     /// Initial value.
     pub init: Option<Init>,
     /// All of it.
@@ -299,9 +305,10 @@ pub struct TypeRef {
 pub enum TypeRefKind {
     /// Elementary, derived or POU name.
     Named(Name),
-    /// `STRING`, `STRING[80]`, `STRING(80)`; `wide`: WSTRING.
+    /// `STRING`, `STRING[80]`, `STRING(80)`; `wide`: WSTRING; `open`: `STRING[*]` (vendor).
     String {
         wide: bool,
+        open: bool,
         capacity: Option<Box<Expr>>,
     },
     /// `INT (0..9)`.
@@ -496,6 +503,11 @@ pub enum ExprKind {
     Call {
         callee: Box<Expr>,
         args: Vec<Arg>,
+    },
+    /// `(target := value)` (vendor): assigns, and is the value.
+    Assign {
+        target: Box<Expr>,
+        value: Box<Expr>,
     },
     /// `r^`.
     Deref(Box<Expr>),

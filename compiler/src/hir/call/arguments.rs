@@ -132,7 +132,7 @@ impl Builder<'_> {
     pub(in crate::hir) fn in_out(&mut self, id: PouId, var: VarId, e: &ast::Expr) -> Option<Place> {
         let v = &self.hir.pous[id].vars[var];
         let (ty, note) = (v.ty, (v.span, format!("`{}` is VAR_IN_OUT", v.name)));
-        self.bindable(e, ty, note)
+        self.bindable(e, ty, note, Some((id, var)))
     }
 
     /// Where an output goes; the value widens if it must.

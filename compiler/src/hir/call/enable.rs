@@ -91,11 +91,22 @@ impl Builder<'_> {
     }
 
     /// The call with what is said about it. A declared ENO is among its arguments.
-    pub(super) fn guarded(&mut self, call: Operand, en: Option<Expr>, mut eno: Option<Eno>, declared: Declared) -> Operand {
+    pub(in crate::hir) fn guarded(
+        &mut self,
+        call: Operand,
+        en: Option<Expr>,
+        mut eno: Option<Eno>,
+        declared: Declared,
+    ) -> Operand {
         if self.is_bad(&call) {
             return call;
         }
-        if let (ExprKind::Call { pou, args }, Some(var)) = (&call.expr.kind, declared.eno)
+        let called = match &call.expr.kind {
+            ExprKind::Call { pou, args } => Some((pou, args)),
+            ExprKind::CallMethod(c) => Some((&c.method, &c.args)),
+            _ => None,
+        };
+        if let (Some((pou, args)), Some(var)) = (called, declared.eno)
             && let Some(i) = self.hir.pous[*pou].params.iter().position(|p| *p == var)
             && let Some(Arg::Output { target, negated }) = args.get(i)
         {

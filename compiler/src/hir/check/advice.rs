@@ -23,10 +23,10 @@ pub(super) fn give(builder: &mut Builder) {
 fn about_units(builder: &Builder) -> Vec<Diag> {
     let mut out = Vec::new();
     let (mut members, mut failing) = (hidden::Members::new(), success::Failing::new());
-    // Of a unit that is partly or wholly written elsewhere too little is known.
+    // Of a unit that is partly or wholly written elsewhere too little is known; one without a text is made by the compiler.
     let known = |id: PouId| {
-        let entry = &builder.symbols.pous[id];
-        !entry.library && !entry.decl.external && entry.decl.inline_c.is_none()
+        let entry = builder.symbols.pous.get(id);
+        entry.is_some_and(|e| !e.library && !e.decl.external && e.decl.inline_c.is_none())
     };
     for (id, pou) in builder.hir.pous.enumerate().filter(|(id, _)| known(*id)) {
         unused::check(builder, id, &mut out);

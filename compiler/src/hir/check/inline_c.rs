@@ -6,7 +6,7 @@ use takt_base::{Code, Diag, Severity};
 
 /// Reports every unit with inline C.
 pub(super) fn check(builder: &mut Builder) {
-    for id in builder.hir.pous.indices() {
+    for id in builder.symbols.pous.indices() {
         let entry = &builder.symbols.pous[id];
         let Some(span) = entry.decl.inline_c else { continue };
         let reachable = builder.hir.pous[id].reachable;

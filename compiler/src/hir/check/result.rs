@@ -10,6 +10,9 @@ impl Builder<'_> {
         let pou = &self.hir.pous[id];
         let Some(result) = pou.result.filter(|_| !pou.external && !self.scope.result_written) else { return };
         let var = &pou.vars[result];
+        if ["FB_INIT", "FB_REINIT", "FB_EXIT"].iter().any(|n| var.name.eq_ignore_ascii_case(n)) {
+            return; // nobody looks at it
+        }
         let label = format!("`{}` is not assigned", var.name);
         let help = format!("write `{} := ...;` before the end", var.name);
         let diag = Diag::new(Code::ResultNeverAssigned, var.span, label).help(help);

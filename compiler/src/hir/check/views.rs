@@ -22,7 +22,10 @@ pub(super) fn check(builder: &mut Builder) {
         }
     }
     for resource in 0..builder.symbols.resource_globals.len() as u32 {
-        let entries = builder.hir.tasks.iter().filter(|t| t.resource == resource).flat_map(reach::entries).collect();
+        let mut entries: Vec<PouId> =
+            builder.hir.tasks.iter().filter(|t| t.resource == resource).flat_map(reach::entries).collect();
+        let setups = builder.hir.start.iter().flat_map(|s| &s.programs).filter(|(pou, _)| entries.contains(pou)).map(|s| s.1);
+        entries.extend(setups.collect::<Vec<_>>());
         let reached = reach::reached(&called, entries);
         let renamed = renamed(builder, resource);
         let mut own = BTreeSet::new();

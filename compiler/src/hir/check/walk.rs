@@ -95,6 +95,11 @@ fn expression<'a>(e: &'a Expr, on: &mut dyn FnMut(Event<'a>)) {
         }
         ExprKind::Address(p) | ExprKind::AddressOf(p) => lend(p, on),
         ExprKind::Neg(a) | ExprKind::Not(a) | ExprKind::Convert(_, a) | ExprKind::OfClass(a, _) => expression(a, on),
+        ExprKind::Stored(s) => {
+            expression(&s.1, on);
+            write(&s.0, Some(&s.1), on);
+            on(Event::Read(&s.0));
+        }
         ExprKind::Binary(_, a, b) => {
             expression(a, on);
             expression(b, on);

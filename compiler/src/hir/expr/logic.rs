@@ -41,6 +41,7 @@ fn parts(e: &Expr) -> Vec<&Expr> {
         }
         ExprKind::AddressOf(place) => indices(place),
         ExprKind::OfClass(a, _) => vec![a],
+        ExprKind::Stored(s) => indices(&s.0).into_iter().chain([&s.1]).collect(),
         ExprKind::Intrinsic(_, args) | ExprKind::Native { args, .. } => args.iter().collect(),
         ExprKind::Guarded(g) => g.en.iter().chain([&g.call]).collect(),
     }
@@ -63,7 +64,7 @@ fn step_indices(step: &Step) -> Vec<&Expr> {
 fn calls(e: &Expr) -> bool {
     let here = match &e.kind {
         ExprKind::Native { name, .. } => name.starts_with(PREFIX),
-        kind => matches!(kind, ExprKind::Call { .. } | ExprKind::CallMethod(_) | ExprKind::Guarded(_)),
+        kind => matches!(kind, ExprKind::Call { .. } | ExprKind::CallMethod(_) | ExprKind::Guarded(_) | ExprKind::Stored(_)),
     };
     here || parts(e).into_iter().any(calls)
 }

@@ -48,6 +48,7 @@ impl Builder<'_> {
             ast::ExprKind::Unary(op, a) => self.unary(*op, a, e.span, want),
             ast::ExprKind::Binary(op, a, b) => self.binary(*op, a, b, e.span, want),
             ast::ExprKind::Call { callee, args } => self.call(callee, args, e.span, want),
+            ast::ExprKind::Assign { target, value } => self.assigned(target, value, e.span),
             ast::ExprKind::Error => self.bad(e.span),
         }
     }

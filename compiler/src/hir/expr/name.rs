@@ -21,7 +21,22 @@ impl Builder<'_> {
             return o;
         }
         let place = ast::Expr { kind: ast::ExprKind::Name(n.clone()), span: n.span };
-        self.read(&place)
+        let o = self.read(&place);
+        match want.and_then(|ty| self.this_pointer(n, &o, ty)) {
+            Some(pointer) => pointer,
+            None => o,
+        }
+    }
+
+    /// THIS where a pointer is wanted (vendor): its address.
+    fn this_pointer(&mut self, n: &ast::Name, o: &Operand, want: TypeId) -> Option<Operand> {
+        self.pointee(want)?;
+        let ExprKind::Load(place) = &o.expr.kind else { return None };
+        if !self.is_this(n) || !self.profile(n.span).is_codesys() {
+            return None;
+        }
+        let ty = self.pointer_to(takt_image::types::PointerKind::RefTo, place.ty);
+        Some(Operand::fixed(Expr { kind: ExprKind::Address(place.clone()), ty, span: n.span }))
     }
 
     /// True if the name can only be an enumerator, which needs the context to be understood.

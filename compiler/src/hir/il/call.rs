@@ -46,10 +46,14 @@ impl List<'_, '_> {
         let before = self.cr.clone();
         let outer = std::mem::take(&mut self.out);
         let args = self.args(args, span);
-        match self.b.block_call(instance, &args, span) {
-            Some(Some(kind)) => self.push(kind, span),
-            Some(None) => {}
-            None => self.not_an_instance(instance),
+        match self.b.method_call(instance, &args, span) {
+            Some(call) if self.b.is_bad(&call) => {}
+            Some(call) => self.push(StmtKind::Call(call.expr), span), // an action or method
+            None => match self.b.block_call(instance, &args, span) {
+                Some(Some(kind)) => self.push(kind, span),
+                Some(None) => {}
+                None => self.not_an_instance(instance),
+            },
         }
         self.cr = before;
         let inner = std::mem::replace(&mut self.out, outer);
@@ -137,7 +141,7 @@ impl List<'_, '_> {
     }
 
     /// The current result as an argument: a literal stays one, everything else has a name that no user can write.
-    fn argument(&mut self, span: Span) -> Option<ast::Expr> {
+    pub(super) fn argument(&mut self, span: Span) -> Option<ast::Expr> {
         let o = self.read(None, span)?;
         if let Some(literal) = literal(&o) {
             return Some(ast::Expr { kind: ast::ExprKind::Literal(literal), span });

@@ -102,8 +102,8 @@ impl List<'_, '_> {
             }
             Op::Store => self.store(e, negated, span),
             Op::Attempt => {
-                self.b.operand(e, None);
-                self.b.unsupported(span, "ST? (assignment attempt)", "test the reference with EQ NULL first");
+                let kind = self.argument(span).and_then(|value| self.b.attempt(e, &value));
+                kind.into_iter().for_each(|kind| self.push(kind, span));
             }
             Op::Set | Op::Reset => self.set_or_reset(e, *op == Op::Set, span),
             Op::Binary(op) => {

@@ -33,8 +33,8 @@ impl Builder<'_> {
     /// A variable of the type that the running method belongs to.
     pub(in crate::hir) fn own_member(&mut self, id: VarId, name: &ast::Name) -> Option<Target> {
         let owner = self.own_type()?;
-        let var = &self.hir.pous[owner].vars[id];
-        if var.role == Role::InOut {
+        if self.hir.pous[owner].vars[id].role == Role::InOut {
+            let var = &self.hir.pous[owner].vars[id];
             let (span, help) = (var.span, "give the method a VAR_IN_OUT of its own, and pass the variable on");
             let diag = Diag::new(Code::NotSupportedYet, name.span, "a VAR_IN_OUT of the function block").also(span, "declared");
             self.report(
@@ -42,6 +42,10 @@ impl Builder<'_> {
             );
             return None;
         }
+        if self.edge_in_action(id, name.span) {
+            return None;
+        }
+        let var = &self.hir.pous[owner].vars[id];
         let access = match self.scope.fixed_members.get(&id) {
             Some(ReadOnly::Constant) => Access::Constant(var.span),
             Some(ReadOnly::Input) => Access::OwnInput(var.span),

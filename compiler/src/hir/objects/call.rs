@@ -158,6 +158,17 @@ impl Builder<'_> {
         if !self.check_method_access(method, name) {
             return self.bad_call(args, span);
         }
+        let declared = self.declared_enable(method);
+        match self.enable(args, declared) {
+            None => self.bound_call(object, method, name, args, span),
+            Some(enable) => {
+                let call = self.bound_call(object, method, name, &enable.rest, span);
+                self.guarded(call, enable.en, enable.eno, declared)
+            }
+        }
+    }
+
+    fn bound_call(&mut self, object: Object, method: PouId, name: &ast::Name, args: &[ast::Arg], span: Span) -> Operand {
         let Some(args) = self.user_arguments(method, args, span) else { return self.bad(span) };
         let ty = self.type_of_result(method);
         if ty == self.error {

@@ -4,7 +4,7 @@ use super::key;
 use crate::hir::builder::Builder;
 use crate::hir::model::*;
 use crate::syntax::ast::{self, AccessSpec};
-use takt_base::{Code, Diag, Severity};
+use takt_base::{Code, Diag};
 
 impl Builder<'_> {
     /// Checks all types. Runs when everything is declared.
@@ -65,16 +65,6 @@ impl Builder<'_> {
         }
     }
 
-    /// The methods that CODESYS calls by itself.
-    fn check_life_cycle(&mut self, decl: &ast::Pou) {
-        if ["FB_INIT", "FB_REINIT", "FB_EXIT"].iter().any(|n| decl.name.is(n)) {
-            let diag =
-                Diag::new(Code::NotSupportedYet, decl.name.span, "a method like any other here").severity(Severity::Warning);
-            let diag = diag.message("this method is not called at start and end by this version");
-            self.report(diag.help("give the variables initial values, or call the method in the first cycle"));
-        }
-    }
-
     /// What the method replaces, if anything.
     fn check_override(&mut self, id: PouId, owner: PouId, decl: &ast::Pou) {
         let modifiers = &decl.objects.modifiers;
@@ -98,7 +88,8 @@ impl Builder<'_> {
             return;
         }
         let new = decl.name.span;
-        if modifiers.is_override.is_none() && decl.objects.accessor.is_none() && !self.profile(new).is_vendor() {
+        let wordless = decl.objects.accessor.is_some() || decl.objects.action;
+        if modifiers.is_override.is_none() && !wordless && !self.profile(new).is_vendor() {
             let label = format!("replaces `{}`", self.hir.pous[old].name);
             self.report(
                 Diag::new(Code::MissingOverride, new, label)
@@ -111,7 +102,10 @@ impl Builder<'_> {
             let label = format!("{access:?}, there {old_access:?}").to_uppercase().replace("THERE", "there");
             self.report(Diag::new(Code::SignatureMismatch, new, label).also(at, "declared").help("repeat the access specifier"));
         }
-        self.compare_signatures(id, old);
+        let life_cycle = ["FB_INIT", "FB_REINIT", "FB_EXIT"].iter().any(|n| decl.name.is(n));
+        if !life_cycle || !self.profile(new).is_codesys() {
+            self.compare_signatures(id, old);
+        }
     }
 
     /// Methods of interfaces, and abstract methods of bases.

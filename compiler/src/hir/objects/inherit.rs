@@ -160,6 +160,7 @@ impl Builder<'_> {
             first.init = Const::Int(number.into());
         }
         self.hir.pous[id].params = self.hir.pous[base].params.clone();
+        self.objects.taken_over.insert(base, vars.len());
         for (v, var) in vars.into_iter().enumerate() {
             let v = takt_base::index::Index::new(v);
             let access = self.objects.var_access.get(&(base, v)).copied();
@@ -223,11 +224,17 @@ impl Builder<'_> {
         let Some(owner) = self.hir.pous[id].owner else { return };
         let span = self.symbols.pous[owner].decl.name.span;
         self.ensure_pou(owner, span);
+        let action = self.is_action(id);
         let scope = &self.symbols.pous[owner].scope;
         let vars = &self.hir.pous[owner].vars;
+        let mut borrowed = Vec::new();
         for (name, (local, _)) in &scope.names {
             let member = match *local {
-                Local::Var(v) if vars[v].role == Role::Temp => continue,
+                Local::Var(v) if vars[v].role == Role::InOut && action => {
+                    borrowed.push((name.clone(), v));
+                    continue;
+                }
+                Local::Var(v) if vars[v].role == Role::Temp && vars[v].storage == Storage::Local => continue,
                 Local::Var(v) => Local::Member(v),
                 other => other,
             };
@@ -235,5 +242,7 @@ impl Builder<'_> {
         }
         self.scope.fixed_members = scope.read_only.clone();
         self.scope.enums = scope.enums.clone();
+        borrowed.sort();
+        borrowed.into_iter().for_each(|(name, v)| self.borrow_in_out(id, owner, &name, v));
     }
 }

@@ -103,7 +103,7 @@ impl Builder<'_> {
         let decl = self.symbols.pous[method].decl;
         let in_interface = self.hir.pous[method].owner.is_some_and(|o| self.hir.pous[o].kind == PouKind::Interface);
         match decl.objects.modifiers.access {
-            _ if in_interface => (AccessSpec::Public, true),
+            _ if in_interface || decl.objects.action => (AccessSpec::Public, true),
             Some((access, _)) => (access, true),
             None if self.profile(decl.name.span).is_vendor() => (AccessSpec::Public, true),
             None => (AccessSpec::Protected, false),

@@ -1,15 +1,20 @@
 //! Object orientation (§4.2 to §4.4): types with methods, inheritance, interfaces. The whole program is known, so dynamic binding needs
 //! no addresses of code: an instance begins with the number of its class, and a call chooses among the methods that it can mean.
 
+mod action;
 mod bind;
 mod call;
 mod check;
 mod inherit;
+mod inst;
+mod life;
 mod lookup;
 mod property;
 mod section;
 mod signature;
 mod value;
+
+pub(super) use action::has_actions;
 
 use super::builder::Builder;
 use super::model::*;
@@ -42,6 +47,12 @@ pub(super) struct Table {
     /// Variables of units that were assigned or lent, and interface variables that were called.
     pub written: HashSet<(PouId, VarId)>,
     pub called: Vec<(PouId, VarId, Span)>,
+    /// Fields of VAR_INST variables, by type, method and name.
+    pub instance_vars: HashMap<(PouId, String, String), VarId>,
+    /// How many variables types have that others extend.
+    pub taken_over: HashMap<PouId, usize>,
+    /// Tells that retained variables were restored; made when an FB_init asks.
+    pub kept_mark: Option<GlobalId>,
     /// Who may call whom through a class number, and where.
     pub dynamic_calls: Vec<(Option<PouId>, PouId, Span)>,
 }

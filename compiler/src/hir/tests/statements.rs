@@ -33,6 +33,7 @@ fn case_labels() {
             "CASE i + j OF -1: ; 0: ; END_CASE;",
             "CASE col OF White: ; 16#1: ; END_CASE;",
             "CASE vULINT OF 18446744073709551615: ; END_CASE;",
+            "CASE s OF 'a': ; END_CASE;",
         ],
     );
     expect(
@@ -47,7 +48,6 @@ fn case_labels() {
             ("CASE i OF j: ; END_CASE;", "P2005 4:11"),
             ("CASE i OF 40000: ; END_CASE;", "P2004 4:11"),
             ("CASE r OF 1: ; END_CASE;", "P2003 4:6"),
-            ("CASE s OF 'a': ; END_CASE;", "P2003 4:6"),
             ("CASE light OF Red: ; Red: ; END_CASE;", "P3004 4:22"),
             ("CASE light OF 1: ; END_CASE;", "P2001 4:15"),
             ("CASE i OF Red: ; END_CASE;", "P2001 4:11"),

@@ -121,7 +121,7 @@ impl Builder<'_> {
         let mut parts = Vec::new();
         for decl in decls {
             let used = self.type_ref(&decl.ty);
-            let init = decl.init.as_ref().map_or_else(|| used.default.clone(), |i| self.initial(i, &used));
+            let init = decl.init.as_ref().map_or_else(|| used.default.clone(), |i| self.initial_or_late(i, &used, false).0);
             for _ in &decl.names {
                 let bit = self.bit_members.get(&(ty, parts.len() as u32)).copied();
                 parts.push(shifted(init.clone(), bit));

@@ -45,7 +45,8 @@ impl Builder<'_> {
     fn type_kind(&mut self, t: &ast::TypeRef) -> TypeUse {
         match &t.kind {
             ast::TypeRefKind::Named(name) => self.named_type(name),
-            ast::TypeRefKind::String { wide, capacity } => self.string_type(*wide, capacity.as_deref(), t.span),
+            ast::TypeRefKind::String { open: true, .. } => self.misplaced_open_string(t.span),
+            ast::TypeRefKind::String { wide, capacity, .. } => self.string_type(*wide, capacity.as_deref(), t.span),
             ast::TypeRefKind::Subrange { base, low, high } => self.subrange(None, base, low, high, t.span),
             ast::TypeRefKind::Array { dims, element } => self.array_type(dims, element, t.span),
             ast::TypeRefKind::Enum(decl) => self.anonymous_enum(decl),
@@ -78,12 +79,30 @@ impl Builder<'_> {
             Some(Unit::Type(index)) => self.declared_type(index, name.span),
             Some(Unit::Pou(id)) => self.instance_type(id, name.span),
             None if self.is_vendor_block(name) => self.bad_type(),
+            None if self.profile(name.span).is_codesys() && wide(name).is_some() => self.wide_type(name),
+            None if name.is("ANY") || name.key().starts_with("ANY_") => {
+                let help = "declare a function for each type, or take POINTER TO BYTE and a size (ADR and SIZEOF of the actual)";
+                self.unsupported(name.span, "a parameter of a generic type", help);
+                self.bad_type()
+            }
             None => {
                 let known = self.unit_names().into_iter().chain(Elementary::ALL.iter().map(|e| e.name().to_owned())).collect();
                 self.unknown(Code::UnknownType, name, known);
                 self.bad_type()
             }
         }
+    }
+
+    /// Types as wide as a pointer (vendor), which has 32 bits here.
+    fn wide_type(&mut self, name: &ast::Name) -> TypeUse {
+        let e = wide(name).unwrap_or(Elementary::Dword);
+        let ty = self.elem(e);
+        if name.is("PVOID") {
+            let byte = self.elem(Elementary::Byte);
+            let ty = self.pointer_to(takt_image::types::PointerKind::Pointer, byte);
+            return self.plain(ty);
+        }
+        self.plain(ty)
     }
 
     fn instance_type(&mut self, id: PouId, at: Span) -> TypeUse {
@@ -216,4 +235,14 @@ impl Builder<'_> {
         }
         fits
     }
+}
+
+/// What a type as wide as a pointer stands for (language reference §2.1).
+fn wide(name: &ast::Name) -> Option<Elementary> {
+    Some(match &*name.key() {
+        "__XWORD" | "PVOID" => Elementary::Dword,
+        "__UXINT" => Elementary::Udint,
+        "__XINT" => Elementary::Dint,
+        _ => return None,
+    })
 }

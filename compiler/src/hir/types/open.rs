@@ -13,6 +13,14 @@ use takt_image::{Elementary, TypeId};
 impl Builder<'_> {
     /// The type of a declaration in a section, where an array of variable length may stand.
     pub(in crate::hir) fn declared_var_type(&mut self, pou: &ast::Pou, section: &ast::VarSection, t: &ast::TypeRef) -> TypeUse {
+        if let ast::TypeRefKind::String { wide, open: true, .. } = t.kind
+            && section.kind == SectionKind::InOut
+            && !pou.external
+        {
+            let capacity = super::STRING_MAX;
+            let ty = self.hir.types.intern(if wide { Type::WString { capacity } } else { Type::String { capacity } });
+            return TypeUse { ty, default: Const::Zero };
+        }
         let ast::TypeRefKind::OpenArray { dims, element } = &t.kind else { return self.type_ref(t) };
         let function = pou.kind == ast::PouKind::Function;
         let fits = match section.kind {
@@ -41,6 +49,32 @@ impl Builder<'_> {
         let help = "it may be a VAR_IN_OUT, or a parameter of a function; write the bounds everywhere else";
         self.report(Diag::new(Code::MisplacedOpenArray, span, "its length is not known here").help(help));
         self.bad_type()
+    }
+
+    /// `STRING[*]` where the length must be known.
+    pub(super) fn misplaced_open_string(&mut self, span: Span) -> TypeUse {
+        let help = "it may be a VAR_IN_OUT; write the length everywhere else";
+        self.report(Diag::new(Code::MisplacedOpenArray, span, "its length is not known here").help(help));
+        self.bad_type()
+    }
+
+    /// True for a VAR_IN_OUT that takes strings of other lengths (vendor): STRING[*] all, STRING those that are not longer. They are
+    /// copied in, and back into the room that the caller's variable has.
+    pub(in crate::hir) fn takes_string(&self, id: PouId, var: VarId, actual: TypeId) -> bool {
+        let v = &self.hir.pous[id].vars[var];
+        let (most, room) = match (self.ty(v.ty), self.ty(actual)) {
+            (Type::String { capacity: a }, Type::String { capacity: b }) => (*a, *b),
+            (Type::WString { capacity: a }, Type::WString { capacity: b }) => (*a, *b),
+            _ => return false,
+        };
+        self.profile(v.span).is_codesys() && room <= most && self.line(id).iter().any(|t| self.open_strings.contains(&(*t, var)))
+    }
+
+    /// Remembers a VAR_IN_OUT string without a length.
+    pub(in crate::hir) fn note_open_string(&mut self, id: PouId, var: VarId, t: &ast::TypeRef) {
+        if matches!(t.kind, ast::TypeRefKind::String { capacity: None, .. }) {
+            self.open_strings.insert((id, var));
+        }
     }
 
     /// Element type and number of dimensions of an array of variable length.

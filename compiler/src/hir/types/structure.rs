@@ -84,7 +84,7 @@ impl Builder<'_> {
             self.error(Code::SectionNotAllowed, decl.span, "an edge is detected at inputs of function blocks and programs");
         }
         let used = self.type_ref(&decl.ty);
-        let init = decl.init.as_ref().map_or_else(|| used.default.clone(), |i| self.initial(i, &used));
+        let init = decl.init.as_ref().map_or_else(|| used.default.clone(), |i| self.initial_or_late(i, &used, false).0);
         (used.ty, init)
     }
 

@@ -98,7 +98,7 @@ impl Unit<'_, '_> {
                 (self.fitted(kept, param.ty), self.hir.elementary(param.ty))
             }
             Arg::Reference(place) => {
-                let addr = if self.is_open(param.ty) { self.describe(place) } else { self.lend(place, back) };
+                let addr = if self.is_open(param.ty) { self.describe(place) } else { self.lend(place, param.ty, back) };
                 (self.at_address(addr, param.ty), None)
             }
             Arg::Output { target, negated } => {
@@ -122,10 +122,10 @@ impl Unit<'_, '_> {
     }
 
     /// Address of an actual VAR_IN_OUT.
-    fn lend(&mut self, place: &Place, back: &mut Vec<WriteBack>) -> Addr {
+    fn lend(&mut self, place: &Place, wanted: TypeId, back: &mut Vec<WriteBack>) -> Addr {
         let to = self.place(place);
         if let Loc::Memory(addr) = to {
-            return addr;
+            return self.lend_text(addr, place.ty, wanted, back).unwrap_or(addr);
         }
         let value = self.load(to, place.ty);
         let layout = self.hir.types.layout(place.ty);
@@ -133,6 +133,20 @@ impl Unit<'_, '_> {
         self.f.store(from, value);
         back.push(WriteBack { from, from_ty: place.ty, to, to_ty: place.ty, negated: false });
         from
+    }
+
+    /// A string for a parameter with more room (vendor): a copy, which goes back cut to the room that there is.
+    fn lend_text(&mut self, addr: Addr, ty: TypeId, wanted: TypeId, back: &mut Vec<WriteBack>) -> Option<Addr> {
+        let (Shape::Text { capacity, unit }, Shape::Text { capacity: most, .. }) = (self.shape(ty), self.shape(wanted)) else {
+            return None;
+        };
+        if capacity == most {
+            return None;
+        }
+        let from = self.text_temp(most, unit);
+        self.copy_text(Text { addr: from, capacity: most, unit }, Text { addr, capacity, unit });
+        back.push(WriteBack { from, from_ty: wanted, to: Loc::Memory(addr), to_ty: ty, negated: false });
+        Some(from)
     }
 
     /// Where a function writes an output: directly, if nothing has to be done to the value on the way.
@@ -182,12 +196,25 @@ impl Unit<'_, '_> {
             None => self.call_native_block(pou, address),
         }
         self.write_back(back);
+        if self.hir.unbinds(id) && !is_own(instance) {
+            self.unbind(pou, this);
+        }
         for output in outputs {
             let var = &pou.vars[output.var];
             let Some(from) = self.pin(pou, this, var) else { continue };
             let (from_ty, to_ty) = output.convert.unwrap_or((var.ty, output.target.ty));
             let to = self.place(&output.target);
             self.copy_out(from, from_ty, to, to_ty, output.negated);
+        }
+    }
+
+    /// Takes back what the VAR_IN_OUT variables of an instance were bound to: an action that is called later must not find it.
+    fn unbind(&mut self, pou: &Pou, this: Addr) {
+        for var in pou.vars.iter().filter(|v| v.role == Role::InOut) {
+            if let Some(pin) = self.pin(pou, this, var) {
+                let nothing = self.f.int(Scalar::I32, 0);
+                self.f.store(pin, nothing);
+            }
         }
     }
 
@@ -199,7 +226,7 @@ impl Unit<'_, '_> {
                 self.assign(Loc::Memory(pin), var.ty, value);
             }
             Arg::Reference(place) => {
-                let addr = if self.is_open(var.ty) { self.describe(place) } else { self.lend(place, back) };
+                let addr = if self.is_open(var.ty) { self.describe(place) } else { self.lend(place, var.ty, back) };
                 let offset = self.f.address(addr);
                 self.f.store(pin, offset);
             }
@@ -219,4 +246,9 @@ impl Unit<'_, '_> {
         debug_assert_eq!(self.f.ty(address), Scalar::I32);
         self.f.emit(Op::CallNative { dst: None, native, args: vec![slot_of(address)] });
     }
+}
+
+/// True for SUPER(): the call of a body within that of the same instance.
+fn is_own(instance: &Place) -> bool {
+    matches!(instance.base, Base::This) && instance.path.is_empty()
 }

@@ -4,6 +4,7 @@
 use super::builder::{behind, fixed};
 use super::place::Loc;
 use super::shape::Shape;
+use super::startup::FirstScan;
 use super::unit::Unit;
 use crate::hir::model::*;
 use crate::mir::model::*;
@@ -11,9 +12,10 @@ use takt_image::image::Place as ImagePlace;
 
 impl Unit<'_, '_> {
     /// The entry that a task runs for a program with connections: inputs, program, outputs (§10.3).
-    pub fn run_program(&mut self, instance: &ProgramInstance) {
+    pub fn run_program(&mut self, instance: &ProgramInstance, first: Option<FirstScan>) {
         let pou = &self.hir.pous[instance.pou];
         let this = self.instance_param(pou);
+        first.into_iter().for_each(|f| self.begin(f));
         for (var, value) in &instance.inputs {
             self.at_line(value.span);
             let var = &pou.vars[*var];
@@ -40,8 +42,9 @@ impl Unit<'_, '_> {
     }
 
     /// The entry that a task runs for a function block of its own (§10.2).
-    pub fn run_block(&mut self, block: &BoundBlock, program: u32) {
+    pub fn run_block(&mut self, block: &BoundBlock, program: u32, first: Option<FirstScan>) {
         let this = self.instance_param(&self.hir.pous[block.pou]);
+        first.into_iter().for_each(|f| self.begin(f));
         let address = self.f.address(this);
         self.between_mirrors(&block.program, fixed(program), |unit| unit.call_body(block.pou, address));
         self.f.end(End::Return(None));

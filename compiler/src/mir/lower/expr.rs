@@ -83,6 +83,13 @@ impl Unit<'_, '_> {
                 self.f.address(addr)
             }
             ExprKind::OfClass(a, classes) => self.of_class(a, classes),
+            ExprKind::Stored(s) => {
+                let to = self.place(&s.0);
+                let value = self.operand(&s.1);
+                self.assign(to, s.0.ty, value);
+                let stored = self.load(to, s.0.ty);
+                self.f.duplicate(stored)
+            }
             ExprKind::Intrinsic(i, args) => match self.intrinsic(*i, args, e.ty) {
                 Value::Scalar(l) => l,
                 _ => unreachable!("an intrinsic with a scalar result"),

@@ -25,6 +25,7 @@ mod place;
 mod pointer;
 mod retain;
 mod shape;
+mod startup;
 mod stmt;
 mod symbols;
 mod task;

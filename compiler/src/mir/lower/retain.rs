@@ -15,7 +15,9 @@ const RETAINED_MAX: usize = 1 << 18;
 
 /// All retained variables, each as a whole where it can be.
 pub fn retained(hir: &Hir, data: &Data) -> Result<Vec<Retained>, Diag> {
-    let units = hir.pous.enumerate().filter_map(|(id, p)| Some((p.instance?, id))).collect();
+    // The unit of a type comes before the one that sets up its instances.
+    let units =
+        hir.pous.enumerate().filter_map(|(id, p)| Some((p.instance?, id))).collect::<Vec<_>>().into_iter().rev().collect();
     let mut walk = Walk { hir, units, plain: HashMap::new(), says: HashMap::new(), found: Vec::new() };
     for (id, g) in hir.globals.enumerate().filter(|(_, g)| !g.constant) {
         let root = Root::Global(id);

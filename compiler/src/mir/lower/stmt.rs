@@ -58,7 +58,7 @@ impl Unit<'_, '_> {
     fn call_statement(&mut self, e: &Expr) {
         match &e.kind {
             ExprKind::Call { pou, args } => _ = self.call(*pou, args, e.span),
-            ExprKind::Guarded(g) if g.en.is_none() && matches!(g.call.kind, ExprKind::Call { .. }) => {
+            ExprKind::Guarded(g) if g.en.is_none() && matches!(g.call.kind, ExprKind::Call { .. } | ExprKind::CallMethod(_)) => {
                 self.call_statement(&g.call);
                 self.hand_eno(g, None);
             }

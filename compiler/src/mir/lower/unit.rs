@@ -228,7 +228,7 @@ impl<'p, 'h> Unit<'p, 'h> {
         }
         let target = self.f.load(Scalar::I32, addr);
         self.f.regions.set(target, Region::whole(Object::Foreign));
-        if pou.kind == PouKind::Program {
+        if pou.kind == PouKind::Program || pou.unbinds {
             let unbound = self.f.compare_const(Compare::Eq, target, 0);
             self.f.trap_if(Trap::Reference, unbound);
         }
@@ -240,6 +240,7 @@ impl<'p, 'h> Unit<'p, 'h> {
     }
 
     fn function_parameters(&mut self, pou: &'h Pou) {
+        let owner = pou.owner.map(|o| &self.hir.pous[o]);
         let result = pou.result.filter(|r| !matches!(self.shape(pou.vars[*r].ty), Shape::Scalar(_)));
         let destination = result.map(|_| self.reference_param());
         let incoming: Vec<_> = pou.params.iter().map(|p| (*p, self.incoming(&pou.vars[*p]))).collect();
@@ -248,6 +249,7 @@ impl<'p, 'h> Unit<'p, 'h> {
             let home = match (var.role, given) {
                 (_, Some(local)) if self.is_open(var.ty) => self.open_home(local, var.ty),
                 (Role::InOut, Some(local)) => Home::Memory(at(local)),
+                (Role::InOut, None) => self.borrowed_home(owner.expect("only actions borrow"), var),
                 (Role::Input, Some(local)) => self.input_home(id, var, local),
                 (Role::Result, _) if destination.is_some() && self.fixed_home(id).is_some() => {
                     self.outputs.push((id, destination.expect("checked")));
@@ -262,6 +264,13 @@ impl<'p, 'h> Unit<'p, 'h> {
             };
             self.homes.push(home);
         }
+    }
+
+    /// What a VAR_IN_OUT of the unit is bound to, in one of its actions.
+    fn borrowed_home(&mut self, owner: &Pou, var: &Var) -> Home {
+        let (Storage::Field(i), Some(this)) = (var.storage, self.this) else { unreachable!("in-outs are fields") };
+        let pin = field(&self.hir.types, self.this_type(), i).expect("a field of the instance").offset;
+        self.field_home(owner, var, behind(this, pin))
     }
 
     fn stored_home(&mut self, id: VarId, var: &Var) -> Home {
@@ -342,7 +351,8 @@ impl<'p, 'h> Unit<'p, 'h> {
                 self.f.store(pin, on);
             }
             let given = matches!(var.role, Role::Input | Role::InOut);
-            if var.storage != Storage::Local || given || self.is_open(var.ty) {
+            let starts_anew = var.storage == Storage::Local || var.role == Role::Temp;
+            if !starts_anew || given || self.is_open(var.ty) {
                 continue;
             }
             match (self.shape(var.ty), self.homes[id]) {

@@ -95,6 +95,10 @@ pub fn expression<'a>(e: &'a Expr, on: &mut dyn FnMut(Event<'a>)) {
             on(Event::Lend(p));
         }
         ExprKind::OfClass(a, _) => expression(a, on),
+        ExprKind::Stored(s) => {
+            expression(&s.1, on);
+            write(&s.0, on);
+        }
         ExprKind::Intrinsic(_, args) | ExprKind::Native { args, .. } => args.iter().for_each(|a| expression(a, on)),
     }
 }

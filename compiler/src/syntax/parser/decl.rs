@@ -79,8 +79,9 @@ impl Parser<'_> {
         self.heritage(&mut objects);
         self.eat(Tok::Semi);
         let mut sections = self.sections();
-        let body = self.pou_body(kind, &mut sections, &mut objects);
+        let body = self.pou_body(kind, name.as_ref(), &mut sections, &mut objects);
         self.close_pou(end, opener, opener_name);
+        self.actions_behind(kind, name.as_ref(), &mut objects);
         let name = name.unwrap_or(Name { text: String::new(), span: opener.end_point() });
         let inside = |at: &&(usize, Span)| (first..=self.pos).contains(&at.0);
         let inline_c = self.tokens.inline_c.iter().find(inside).map(|c| c.1);
@@ -132,10 +133,16 @@ impl Parser<'_> {
     }
 
     /// Statements up to the end of the unit, with its methods before, between and behind them.
-    fn pou_body(&mut self, kind: PouKind, sections: &mut Vec<VarSection>, objects: &mut Objects) -> Vec<Stmt> {
+    fn pou_body(
+        &mut self,
+        kind: PouKind,
+        unit: Option<&Name>,
+        sections: &mut Vec<VarSection>,
+        objects: &mut Objects,
+    ) -> Vec<Stmt> {
         let mut body = Vec::new();
         loop {
-            if self.member_of_unit(kind, objects) || self.unsupported_body() {
+            if self.member_of_unit(kind, objects) || self.actions_of_unit(kind, unit, objects) || self.unsupported_body() {
                 continue;
             }
             body.append(&mut self.body_statements());
@@ -145,7 +152,7 @@ impl Parser<'_> {
                 } else {
                     self.late_section(sections);
                 }
-            } else if !self.member_of_unit(kind, objects) && !self.unsupported_body() {
+            } else if !self.starts_member() && !self.starts_action() && !self.unsupported_body() {
                 return body;
             }
         }

@@ -319,13 +319,22 @@ impl Parser<'_> {
     fn parenthesised(&mut self) -> Tree {
         let start = self.here();
         self.bump();
-        let inner = self.binary(1);
-        if self.at(Tok::Assign) {
-            self.unsupported_here("an assignment inside of an expression");
-            self.lost = true;
+        let mut inner = self.binary(1);
+        if self.at(Tok::Assign) && !self.lost {
+            inner = self.assignment(inner);
         }
         self.closing(Tok::RParen, ")", start);
         Tree { expr: Expr { span: self.since(start), ..inner.expr }, height: inner.height }
+    }
+
+    /// `:= value` behind a variable in parentheses (vendor).
+    fn assignment(&mut self, target: Tree) -> Tree {
+        self.codesys_form("an assignment inside of an expression");
+        self.bump();
+        let value = self.binary(1);
+        let (span, height) = (self.since(target.expr.span), target.height.max(value.height));
+        let kind = ExprKind::Assign { target: Box::new(target.expr), value: Box::new(value.expr) };
+        self.grown(Expr { kind, span }, height)
     }
 
     /// A direct address such as `%IX1.2`.

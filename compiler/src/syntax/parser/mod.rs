@@ -2,6 +2,7 @@
 //! Never fails, never recurses without counting (see `cursor`), takes time linear in the text.
 //! One mistake gives one message: after it the parser is silent until it has found its place again.
 
+mod action;
 mod call;
 mod config;
 mod cursor;

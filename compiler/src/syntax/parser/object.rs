@@ -133,10 +133,10 @@ impl Parser<'_> {
     fn method_body(&mut self, owner: PouKind) -> (Vec<VarSection>, Vec<Stmt>) {
         let mut sections = self.sections();
         let first = self.here();
-        let mut body = self.statements(false);
+        let mut body = self.body_statements();
         while self.at_section() && self.kw() != Kw::VarGlobal {
             self.late_section(&mut sections);
-            body.append(&mut self.statements(false));
+            body.append(&mut self.body_statements());
         }
         if owner == PouKind::Interface && !body.is_empty() {
             let diag = Diag::new(Code::Expected, first, "a statement in an interface").message("expected END_METHOD");
@@ -147,7 +147,7 @@ impl Parser<'_> {
     }
 
     /// The end of a method or accessor; another keyword is left for those who want it.
-    fn close_member(&mut self, want: Kw, opener: Span, opener_name: &str) {
+    pub(super) fn close_member(&mut self, want: Kw, opener: Span, opener_name: &str) {
         if matches!(self.kw(), Kw::EndVar) || !self.kw().ends_declaration() || self.kw() == want {
             return self.close_pou(want, opener, opener_name);
         }
@@ -207,6 +207,7 @@ impl Parser<'_> {
                 relative: None,
                 ty: head.ty.clone(),
                 edge: None,
+                arguments: None,
                 init: None,
                 span,
             };

@@ -35,8 +35,8 @@ impl Parser<'_> {
     /// True at a part of a unit that is no statement.
     pub(super) fn starts_unit_part(&self) -> bool {
         let kw = self.kw();
-        let part = matches!(kw, Kw::Action | Kw::Step | Kw::InitialStep | Kw::Transition | Kw::VarStat);
-        part && self.nth(1).kind == Tok::Word || self.starts_member()
+        let part = matches!(kw, Kw::Step | Kw::InitialStep | Kw::Transition | Kw::VarStat | Kw::VarInst);
+        part && self.nth(1).kind == Tok::Word || self.starts_member() || self.starts_action()
     }
 
     /// True if the current word, keyword or not, is used as a name: `exit := TRUE`.
@@ -110,6 +110,7 @@ impl Parser<'_> {
             Kw::Continue => self.one_word(StmtKind::Continue),
             Kw::Return => self.return_statement(),
             Kw::Jmp if self.nth(1).kind == Tok::Word => self.jump_statement(),
+            Kw::None if self.is_word("__TRY") => self.try_statement(),
             _ if self.at(Tok::Word) && self.nth(1).kind == Tok::Colon && self.nth(2).kind != Tok::Eq => self.label_statement(),
             _ => match self.misspelt_opener() {
                 Some(kind) => kind,

@@ -254,18 +254,18 @@ impl Parser<'_> {
         let (close, text) = match self.kind() {
             Tok::LBracket => (Tok::RBracket, "]"),
             Tok::LParen => (Tok::RParen, ")"),
-            _ => return TypeRefKind::String { wide, capacity: None },
+            _ => return TypeRefKind::String { wide, open: false, capacity: None },
         };
         self.bump();
-        let capacity = if self.at(Tok::Star) {
-            self.unsupported_here("a string of variable length");
+        if self.at(Tok::Star) {
+            self.codesys_form("a string of variable length");
             self.bump();
-            None
-        } else {
-            Some(Box::new(self.expr()))
-        };
+            self.closing(close, text, opener);
+            return TypeRefKind::String { wide, open: true, capacity: None };
+        }
+        let capacity = Some(Box::new(self.expr()));
         self.closing(close, text, opener);
-        TypeRefKind::String { wide, capacity }
+        TypeRefKind::String { wide, open: false, capacity }
     }
 
     fn enumeration(&mut self, base: Option<Name>) -> TypeRefKind {

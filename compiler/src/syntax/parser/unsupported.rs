@@ -1,12 +1,13 @@
 //! Parts of the language that this version lacks: one message, then on behind their end.
 
 use super::cursor::Parser;
+use crate::syntax::ast::StmtKind;
 use crate::syntax::keyword::Kw;
 use crate::syntax::lexer::{Tok, is_graphic_body};
 use takt_base::Profile;
 use takt_base::diag::{Code, Diag};
 
-/// Declarations by opening and closing keyword.
+/// Declarations by opening and closing keyword that can't stand at file level.
 const CONSTRUCTS: [(Kw, Kw); 3] = [(Kw::Action, Kw::EndAction), (Kw::Actions, Kw::EndActions), (Kw::Resource, Kw::EndResource)];
 
 impl Parser<'_> {
@@ -42,12 +43,12 @@ impl Parser<'_> {
         if !kw.is_reserved() && self.nth(1).kind != Tok::Word {
             return false;
         }
-        if kw == Kw::Resource {
-            let diag = self.expected_diag("a declaration").help("a RESOURCE stands inside of a CONFIGURATION");
-            self.soft(diag);
-        } else {
-            self.unsupported_here(kw.text());
-        }
+        let help = match kw {
+            Kw::Resource => "a RESOURCE stands inside of a CONFIGURATION",
+            _ => "an action stands inside of its PROGRAM or FUNCTION_BLOCK, or directly behind it",
+        };
+        let diag = self.expected_diag("a declaration").help(help);
+        self.soft(diag);
         self.skip_construct(open, close);
         true
     }
@@ -55,7 +56,6 @@ impl Parser<'_> {
     /// A construct between the statements of a unit; false if none stands here.
     pub(super) fn unsupported_body(&mut self) -> bool {
         match self.kw() {
-            Kw::Action | Kw::Actions if self.nth(1).kind == Tok::Word => self.unsupported_construct(),
             Kw::InitialStep | Kw::Step | Kw::Transition if self.nth(1).kind == Tok::Word => {
                 self.unsupported_here("Sequential Function Chart");
                 self.skip_body();
@@ -70,6 +70,28 @@ impl Parser<'_> {
             }
             _ => false,
         }
+    }
+
+    pub(super) fn is_word(&self, word: &str) -> bool {
+        self.at(Tok::Word) && self.text_of(self.peek()).eq_ignore_ascii_case(word)
+    }
+
+    /// `__TRY .. __ENDTRY`.
+    pub(super) fn try_statement(&mut self) -> StmtKind {
+        let diag = self.unsupported_diag("__TRY");
+        self.soft(
+            diag.help(
+                "a fault stops its task; test operands first, or call standard functions with ENO, which tells their errors",
+            ),
+        );
+        while !self.at_end() && !self.kw().ends_declaration() && !self.is_word("__ENDTRY") {
+            self.bump();
+        }
+        if self.is_word("__ENDTRY") {
+            self.bump();
+            self.eat(Tok::Semi);
+        }
+        StmtKind::Empty
     }
 
     /// To the end of the unit.

@@ -21,6 +21,7 @@ fn section_kind(kw: Kw) -> Option<SectionKind> {
         Kw::VarInOut => SectionKind::InOut,
         Kw::VarTemp => SectionKind::Temp,
         Kw::VarStat => SectionKind::Stat,
+        Kw::VarInst => SectionKind::Inst,
         Kw::VarExternal => SectionKind::External,
         Kw::VarGlobal => SectionKind::Global,
         _ => return None,
@@ -48,8 +49,8 @@ impl Parser<'_> {
             self.skip_construct(kw, Kw::EndVar);
             return None;
         };
-        if kind == SectionKind::Stat {
-            self.codesys_form("VAR_STAT");
+        if matches!(kind, SectionKind::Stat | SectionKind::Inst) {
+            self.codesys_form(kw.text());
         }
         let qualified_only = self.tokens.qualified_only.binary_search(&self.pos).is_ok();
         self.bump();
@@ -157,16 +158,25 @@ impl Parser<'_> {
         }
         let ty = self.type_ref();
         let edge = self.edge();
-        let init = self.instance_arguments(&ty).or_else(|| self.optional_init());
+        let arguments = self.instance_arguments(&ty);
+        let init = self.optional_init();
         if matches!(ty, TypeRef { kind: TypeRefKind::Error, .. }) && names.is_empty() {
             return None;
         }
-        Some(VarDecl { names, at, relative, ty, edge, init, span: self.since(start) })
+        Some(VarDecl { names, at, relative, ty, edge, arguments, init, span: self.since(start) })
     }
 
-    /// `(a := 1)` behind a type (vendor): initial values of the inputs of an instance.
+    /// `(a := 1)` behind a type (vendor): arguments of FB_init, or initial values of the inputs of an instance; `[(a := 1), (a := 2)]`
+    /// behind an array of them.
     fn instance_arguments(&mut self, ty: &TypeRef) -> Option<Init> {
-        if !self.at(Tok::LParen) || !matches!(ty.kind, TypeRefKind::Named(_)) {
+        let wanted = match &ty.kind {
+            TypeRefKind::Named(_) => self.at(Tok::LParen),
+            TypeRefKind::Array { element, .. } if matches!(element.kind, TypeRefKind::Named(_)) => {
+                self.at(Tok::LParen) || self.at(Tok::LBracket)
+            }
+            _ => false,
+        };
+        if !wanted {
             return None;
         }
         self.codesys_form("an instance with arguments");

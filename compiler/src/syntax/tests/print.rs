@@ -72,7 +72,14 @@ fn var(v: &VarDecl) -> String {
     let names = all(&v.names, |n| n.text.clone());
     let at = optional(&v.at, |a| format!("at {}", address(a)));
     let edge = optional(&v.edge, |e| format!("{e:?}").to_lowercase());
-    list([names, at, format!(": {}", type_ref(&v.ty)), edge, optional(&v.init, |i| format!(":= {}", init(i)))])
+    list([
+        names,
+        at,
+        format!(": {}", type_ref(&v.ty)),
+        edge,
+        optional(&v.arguments, init),
+        optional(&v.init, |i| format!(":= {}", init(i))),
+    ])
 }
 
 fn type_decl(t: &TypeDecl) -> String {
@@ -96,7 +103,7 @@ fn enumeration(e: &EnumDecl) -> String {
 fn type_ref(t: &TypeRef) -> String {
     match &t.kind {
         TypeRefKind::Named(n) => n.text.clone(),
-        TypeRefKind::String { wide, capacity } => {
+        TypeRefKind::String { wide, capacity, .. } => {
             let name = if *wide { "WSTRING" } else { "STRING" };
             format!("{name}{}", optional(capacity, |c| format!("[{}]", expr(c))))
         }
@@ -231,6 +238,7 @@ pub(super) fn expr(e: &Expr) -> String {
         ExprKind::Index(base, items) => format!("{}[{}]", expr(base), all(items, expr)),
         ExprKind::Part { base, size, index } => format!("{}.%{}{index}", expr(base), letter(*size)),
         ExprKind::Call { callee, args } => list(["call".into(), expr(callee), all(args, arg)]),
+        ExprKind::Assign { target, value } => list([":=".into(), expr(target), expr(value)]),
         ExprKind::Deref(e) => list(["^".into(), expr(e)]),
         ExprKind::Null => "null".into(),
         ExprKind::Error => "?".into(),
