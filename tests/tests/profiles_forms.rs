@@ -135,3 +135,35 @@ fn s3_10_a_number_and_a_function_may_share_a_name() {
         n := LIMIT(0, 1, 2); sel := nothing(1); END_PROGRAM";
     assert_eq!(errors(Profile::Std, text), [Code::NotCallable, Code::UnknownName]);
 }
+
+/// A variable of an instance needs no open address to get one.
+#[test]
+fn s3_7_var_config_gives_addresses_to_plain_variables() {
+    let text = "FUNCTION_BLOCK Fb VAR n : INT := 7; lamp : BOOL; END_VAR n := n + 1; lamp := n > 8; END_FUNCTION_BLOCK
+        PROGRAM Main VAR fb : Fb; counter : INT; inside : INT; located AT %MW40 : INT; END_VAR
+          fb(); counter := counter + 1; inside := counter; END_PROGRAM
+        CONFIGURATION c PROGRAM main : Main;
+          VAR_CONFIG main.counter AT %MW0 : INT := 5; main.fb.lamp AT %QX0.1 : BOOL; END_VAR END_CONFIGURATION";
+    let mut plc = Plc::new(text);
+    plc.scans(2);
+    for (path, value) in [("main.counter", "7"), ("main.fb.n", "9"), ("main.fb.lamp", "TRUE"), ("%MW0", "7"), ("%QX0.1", "TRUE")]
+    {
+        assert_eq!(plc.get(path), value, "{path}");
+    }
+    let located = text.replace("main.counter AT %MW0 : INT := 5", "main.located AT %MW0 : INT");
+    assert_eq!(errors(Profile::Std, &located), [Code::NotConfigurable]);
+}
+
+/// The standard's own computed initial value: the place of a variable of the instance.
+#[test]
+fn s3_9_references_to_variables_of_the_instance_as_initial_values() {
+    let text = "FUNCTION_BLOCK Fb VAR x : INT := 4; r : REF_TO INT := REF(x); END_VAR r^ := r^ + 1; END_FUNCTION_BLOCK
+        FUNCTION f : INT VAR_INPUT a : INT; END_VAR VAR_IN_OUT io : INT; END_VAR VAR r : REF_TO INT := REF(io); END_VAR
+          r^ := r^ + a; f := r^; END_FUNCTION
+        PROGRAM main VAR one, two : Fb; n : INT := 3; p : REF_TO INT := REF(n); k : INT; END_VAR
+          one(); two(); two(); p^ := p^ * 2; k := f(1, n); END_PROGRAM";
+    for profile in [Profile::Std, Profile::Codesys] {
+        after(profile, text, 1, &[("one.x", "5"), ("two.x", "6"), ("n", "7"), ("k", "7")]);
+    }
+    assert_eq!(errors(Profile::Std, "PROGRAM main VAR a : INT; b : INT := a + 1; END_VAR END_PROGRAM"), [Code::NotConstant]);
+}

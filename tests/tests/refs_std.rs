@@ -182,7 +182,6 @@ fn what_has_no_lasting_place_is_not_referred_to() {
         ("", "r := REF();", Code::WrongArgumentCount),
         ("a AT %MD4 : REF_TO INT;", "", Code::ReferenceKept),
         ("END_VAR VAR RETAIN a : REF_TO INT;", "", Code::ReferenceKept),
-        ("a : REF_TO INT := REF(i);", "", Code::NotConstant),
         ("p : POINTER TO INT;", "", Code::VendorForm),
         ("p : REFERENCE TO INT;", "", Code::VendorForm),
     ] {

@@ -74,10 +74,13 @@ impl Builder<'_> {
     }
 
     fn config_address(&mut self, found: &Found, at: &ast::Address, span: Span, given: &mut Given) {
-        let Some(area) = owner(found.last).and_then(|o| self.image.open_area(o)) else {
+        let open = owner(found.last).and_then(|o| self.image.open_area(o));
+        // A variable of an instance without AT may get an address too; what is located stays where it is.
+        let free = matches!(found.last, Last::Var(..)) && !found.steps.contains(&u32::MAX);
+        if open.is_none() && !free {
             return self.not_configurable(at.span, "its address is not open", "declare it with AT %I*, AT %Q* or AT %M*");
-        };
-        if area != at.area {
+        }
+        if let Some(area) = open.filter(|area| *area != at.area) {
             let label = format!("declared AT %{}*", ["I", "Q", "M"][area as usize]);
             let diag = Diag::new(Code::InstanceMismatch, at.span, label).also(found.declared, "declared");
             return self.report(diag.help("stay in the area of the declaration"));

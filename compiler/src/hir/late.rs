@@ -1,4 +1,5 @@
-//! Initial values that are known only when the program starts (vendor, §3.1): calls, other variables, addresses of instances. Found
+//! Initial values that are known only when the program starts: REF of a variable of the instance, and in the CODESYS profiles calls,
+//! other variables, addresses (§3.1). Found
 //! when the declaration is resolved, evaluated by [`super::startup`]; in functions and for VAR_TEMP at the start of each call.
 
 use super::builder::Builder;
@@ -43,13 +44,17 @@ pub(super) struct Found {
     /// Elements in front of the row at hand.
     row: usize,
     list: Vec<Late>,
+    /// Nothing but REF() may be late (standard, §3.9).
+    references_only: bool,
 }
 
 impl Builder<'_> {
     /// The constant part of an initial value, and what is computed later where `allowed`.
     pub fn initial_or_late(&mut self, init: &Init, used: &TypeUse, allowed: bool) -> (Const, Vec<Late>) {
-        let allowed = allowed && self.profile(init.span()).is_codesys() && !self.in_library(init.span());
-        let outer = std::mem::replace(&mut self.late_now, allowed.then(Found::default));
+        let references_only = !self.profile(init.span()).is_codesys();
+        let found = Found { references_only, ..Found::default() };
+        let allowed = allowed && !self.in_library(init.span());
+        let outer = std::mem::replace(&mut self.late_now, allowed.then_some(found));
         let value = self.initial(init, used);
         let found = std::mem::replace(&mut self.late_now, outer);
         (value, found.map(|f| f.list).unwrap_or_default())
@@ -84,7 +89,7 @@ impl Builder<'_> {
 
     /// Notes an expression for later; false if it must be constant.
     pub fn put_off(&mut self, e: &ast::Expr, ty: TypeId) -> bool {
-        let Some(found) = &mut self.late_now else { return false };
+        let Some(found) = self.late_now.as_mut().filter(|f| !f.references_only || is_reference(e)) else { return false };
         found.list.push(Late { path: found.path.clone(), ty, value: e.clone() });
         true
     }
@@ -123,7 +128,7 @@ impl Builder<'_> {
 
     /// True for an expression that only the running program can evaluate.
     pub fn is_late(&self, e: &ast::Expr) -> bool {
-        if self.late_now.is_none() {
+        if self.late_now.as_ref().is_none_or(|f| f.references_only && !is_reference(e)) {
             return false;
         }
         match &e.kind {
@@ -263,4 +268,9 @@ impl Builder<'_> {
         }
         out
     }
+}
+
+/// `REF(v)`.
+fn is_reference(e: &ast::Expr) -> bool {
+    matches!(&e.kind, E::Call { callee, .. } if matches!(&callee.kind, E::Name(n) if n.is("REF")))
 }

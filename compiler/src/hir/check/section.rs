@@ -88,7 +88,9 @@ impl Builder<'_> {
 
     /// A constant that is declared without a value, of a type that has none either.
     pub fn check_constant_value(&mut self, d: &ast::VarDecl, ty: TypeId, default: &Const) {
-        if ty == self.error || self.holds_instance(ty) || d.init.is_some() || d.at.is_some() || !constant::is_zero(default) {
+        let own = matches!(self.ty(ty), Type::Struct(_)); // its members may say their values
+        if ty == self.error || own || self.holds_instance(ty) || d.init.is_some() || d.at.is_some() || !constant::is_zero(default)
+        {
             return;
         }
         let severity = if self.profile(d.span).is_vendor() { Severity::Warning } else { Severity::Error };
