@@ -1,0 +1,155 @@
+//! The listing of LinuxCNC's stand-alone interpreter: `    7 N..... STRAIGHT_FEED(1.0000, ...)`. What scripts that read it expect.
+//! Names and arguments are those of that program where they differ from the report's. Runs: background.
+
+use super::names::{plane_name, reference_name, units_name};
+use crate::canon::{Arc, Canon, Direction, MotionMode, Position, ProgramEnd, Step, ToolEntry};
+use std::fmt::Write;
+
+/// Writes rows and counts them.
+#[derive(Clone, Debug)]
+pub struct Listing {
+    rows: u32,
+    /// The modes before the program have been listed.
+    opened: bool,
+    closed: bool,
+    /// Millimetres in the length unit of the tool table.
+    table_unit: f64,
+}
+
+impl Listing {
+    /// No rows yet; `table_unit` is the length unit of the tool table in mm.
+    pub fn new(table_unit: f64) -> Self {
+        Listing { rows: 0, opened: false, closed: false, table_unit }
+    }
+
+    /// The rows of a step, each with its line end, added to `out`.
+    pub fn step(&mut self, step: &Step, out: &mut String) {
+        if !self.opened && step.block > 0 {
+            self.open(out);
+        }
+        match &step.command {
+            Canon::ProgramEnd(end) => {
+                self.row(step.n, if *end == ProgramEnd::EndOfFile { "FINISH()" } else { "PROGRAM_END()" }, out);
+                self.row(None, "ON_RESET()", out);
+                self.closed = true;
+            }
+            Canon::Print(text) => {
+                out.push_str(text);
+                out.push('\n');
+            }
+            command => {
+                let text = call(command, self.table_unit);
+                if !text.is_empty() {
+                    self.row(step.n, &text, out);
+                }
+            }
+        }
+    }
+
+    /// The rows behind the last step.
+    pub fn finish(&mut self, out: &mut String) {
+        if !self.opened {
+            self.open(out);
+        }
+        if !self.closed {
+            self.row(None, "ON_RESET()", out);
+        }
+        self.row(None, "ON_RESET()", out);
+    }
+
+    fn open(&mut self, out: &mut String) {
+        self.opened = true;
+        self.row(None, "ON_RESET()", out);
+    }
+
+    fn row(&mut self, n: Option<u32>, text: &str, out: &mut String) {
+        self.rows = self.rows.wrapping_add(1);
+        let _ = match n {
+            Some(n) => writeln!(out, "{:5} N{n:<6}{text}", self.rows),
+            None => writeln!(out, "{:5} N..... {text}", self.rows),
+        };
+    }
+}
+
+/// The call of a command; empty for what that program does not list.
+fn call(command: &Canon, table_unit: f64) -> String {
+    match command {
+        Canon::SelectPlane(p) => format!("SELECT_PLANE({})", plane_name(*p)),
+        Canon::UseLengthUnits(u) => format!("USE_LENGTH_UNITS({})", units_name(*u)),
+        Canon::SetFeedReference(r) => format!("SET_FEED_REFERENCE({})", reference_name(*r)),
+        Canon::SetG5xOffset(i, p) => format!("SET_G5X_OFFSET({i}, {})", six(p)),
+        Canon::SetG92Offset(p) => format!("SET_G92_OFFSET({})", six(p)),
+        Canon::SetXyRotation(r) => format!("SET_XY_ROTATION({r:.4})"),
+        Canon::StraightTraverse(p) => format!("STRAIGHT_TRAVERSE({})", six(p)),
+        Canon::StraightFeed(p) => format!("STRAIGHT_FEED({})", six(p)),
+        Canon::StraightProbe(p, _) => format!("STRAIGHT_PROBE({})", six(p)),
+        Canon::RigidTap(p) => format!("RIGID_TAP({:.4}, {:.4}, {:.4})", p.x, p.y, p.z),
+        Canon::ArcFeed(a) => arc(a),
+        Canon::NurbsFeed(n) => format!("NURBS_FEED({}, ...)", n.points.len()),
+        Canon::SetFeedRate(f) => format!("SET_FEED_RATE({f:.4})"),
+        Canon::SetFeedMode(per_rev) => format!("SET_FEED_MODE(0, {})", u8::from(*per_rev)),
+        Canon::SetMotionControlMode(mode) => mode_call(*mode),
+        Canon::SetNaivecamTolerance(t) => format!("SET_NAIVECAM_TOLERANCE({t:.4})"),
+        Canon::Dwell(s) => format!("DWELL({s:.4})"),
+        Canon::StartSpeedFeedSync(k) => format!("START_SPEED_FEED_SYNC({k:.6},0)"),
+        Canon::StopSpeedFeedSynch => "STOP_SPEED_FEED_SYNCH()".into(),
+        Canon::SetOriginOffsets(_) | Canon::WaitInput(_) | Canon::Print(_) => String::new(),
+        other => switch(other, table_unit),
+    }
+}
+
+fn switch(command: &Canon, table_unit: f64) -> String {
+    match command {
+        Canon::SetSpindleSpeed(s) => format!("SET_SPINDLE_SPEED(0, {s:.4})"),
+        Canon::SetSpindleMode(max) => format!("SET_SPINDLE_MODE(0 {:.4})", max.unwrap_or(0.0)),
+        Canon::StartSpindleClockwise => "START_SPINDLE_CLOCKWISE(0)".into(),
+        Canon::StartSpindleCounterclockwise => "START_SPINDLE_COUNTERCLOCKWISE(0)".into(),
+        Canon::StopSpindleTurning => "STOP_SPINDLE_TURNING(0)".into(),
+        Canon::OrientSpindle(angle, Direction::Clockwise) => format!("ORIENT_SPINDLE(0, {angle:.4}, 2)"),
+        Canon::OrientSpindle(angle, Direction::Counterclockwise) => format!("ORIENT_SPINDLE(0, {angle:.4}, 3)"),
+        Canon::OrientSpindleMode(angle, mode) => format!("ORIENT_SPINDLE(0, {angle:.4}, {mode})"),
+        Canon::WaitOrientComplete(s) => format!("SPINDLE.0.WAIT_ORIENT_COMPLETE({s:.4})"),
+        Canon::EnableSpeedOverride => "ENABLE_SPEED_OVERRIDE(0)".into(),
+        Canon::DisableSpeedOverride => "DISABLE_SPEED_OVERRIDE(0)".into(),
+        Canon::UseToolLengthOffset(z) => tool_offset(&Position { z: *z, ..Position::default() }),
+        Canon::UseToolLengthOffsets(p) => tool_offset(p),
+        Canon::SetToolTableEntry(entry) => tool_entry(entry, table_unit),
+        Canon::SetMotionOutputValue(i, v) => format!("SET_MOTION_OUTPUT_VALUE({i},{v:.6})"),
+        Canon::SetAuxOutputValue(i, v) => format!("SET_AUX_OUTPUT_VALUE({i},{v:.6})"),
+        Canon::Comment(text) => format!("COMMENT(\"{text}\")"),
+        Canon::Message(text) => format!("MESSAGE(\"{text}\")"),
+        Canon::Log(text) => format!("LOG(\"{text}\")"),
+        Canon::LogOpen(text) => format!("LOGOPEN(\"{text}\")"),
+        Canon::LogAppend(text) => format!("LOGAPPEND(\"{text}\")"),
+        other => super::command(other),
+    }
+}
+
+fn six(p: &Position) -> String {
+    format!("{:.4}, {:.4}, {:.4}, {:.4}, {:.4}, {:.4}", p.x, p.y, p.z, p.a, p.b, p.c)
+}
+
+fn arc(a: &Arc) -> String {
+    let plane = format!("{:.4}, {:.4}, {:.4}, {:.4}", a.first_end, a.second_end, a.first_axis, a.second_axis);
+    format!("ARC_FEED({plane}, {}, {:.4}, {:.4}, {:.4}, {:.4})", a.rotation, a.axis_end_point, a.a, a.b, a.c)
+}
+
+fn mode_call(mode: MotionMode) -> String {
+    match mode {
+        MotionMode::ExactStop => "SET_MOTION_CONTROL_MODE(CANON_EXACT_STOP)".into(),
+        MotionMode::ExactPath => "SET_MOTION_CONTROL_MODE(CANON_EXACT_PATH)".into(),
+        MotionMode::Continuous(t) => format!("SET_MOTION_CONTROL_MODE(CANON_CONTINUOUS, {t:.6})"),
+    }
+}
+
+fn tool_offset(p: &Position) -> String {
+    let rotary = format!("{:.4} {:.4} {:.4}", p.a, p.b, p.c);
+    format!("USE_TOOL_LENGTH_OFFSET({:.4} {:.4} {:.4}, {rotary}, 0.0000 0.0000 0.0000)", p.x, p.y, p.z)
+}
+
+fn tool_entry(entry: &ToolEntry, unit: f64) -> String {
+    let length = |i: usize| if (3..6).contains(&i) { entry.offset[i] } else { entry.offset[i] / unit };
+    let offsets = (0..9).map(|i| format!("{:.4}", length(i))).collect::<Vec<_>>().join(" ");
+    let shape = format!("{:.4}, {:.4}, {}", entry.front, entry.back, entry.orientation);
+    format!("SET_TOOL_TABLE_ENTRY({}, {}, {offsets}, {shape})", entry.index, entry.tool)
+}
