@@ -214,7 +214,12 @@ impl Interpreter {
 
     /// M99 in the main program starts it anew.
     fn again(&mut self) {
-        if self.once {
+        if self.state.options.drop_in {
+            self.ended = true;
+            let line = self.state.line;
+            let mut out = Out { queue: &mut self.queue, diags: &mut self.diags, block: self.block, line, n: None };
+            execute::epilogue(&mut self.state, &mut out, ProgramEnd::M2);
+        } else if self.once {
             self.finish();
         } else {
             self.flow.restart();
@@ -240,6 +245,12 @@ impl Interpreter {
             let span = Span::new(self.flow.files.source(), start, end);
             let diag = Diag::new(Code::BadCharacter, span, "text beside `%`").help("put `%` on a line of its own");
             self.diags.push(diag);
+            return;
+        }
+        if self.opened && self.state.options.drop_in && !self.percent {
+            let span = Span::new(self.flow.files.source(), start, end);
+            let help = "`%` ends a program only if one stands before it";
+            self.diags.push(Diag::new(Code::BadCharacter, span, "`%` inside of the program").help(help));
             return;
         }
         if self.opened {

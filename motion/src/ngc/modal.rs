@@ -109,17 +109,19 @@ impl Motion {
     /// Letters that the code reads.
     pub const fn operands(self) -> &'static str {
         match self {
-            Motion::Rapid | Motion::Linear | Motion::Probe(_) => "XYZABCUVW@^",
-            Motion::ArcCw | Motion::ArcCcw => "XYZABCUVWIJKRP@^",
-            Motion::Cubic => "XYIJPQ",
-            Motion::Quadratic => "XYIJ",
-            Motion::Nurbs => "XYPL",
+            Motion::Rapid | Motion::Linear | Motion::Probe(_) => "XYZABC@^",
+            Motion::ArcCw | Motion::ArcCcw => "XYZABCIJKRP@^",
+            Motion::Cubic => "XYZABCIJPQ",
+            Motion::Quadratic => "XYZABCIJ",
+            Motion::Nurbs => "XYZABCPL",
             Motion::NurbsEnd => "",
-            Motion::Synchronized => "XYZABCUVWK@^",
-            Motion::RigidTap => "XYZABCUVWKI@^",
+            Motion::Synchronized => "XYZABCK@^",
+            Motion::RigidTap => "XYZABCKI@^",
             Motion::Thread => "ZPIJRKQHEL",
-            Motion::Canned(87) => "XYZABCUVWRLIJKPQ@^",
-            Motion::Canned(_) => "XYZABCUVWRLPQ@^",
+            Motion::Canned(73 | 83) => "XYZRLQ@^",
+            Motion::Canned(74 | 82 | 84 | 86 | 88 | 89) => "XYZRLP@^",
+            Motion::Canned(87) => "XYZRLIJK@^",
+            Motion::Canned(_) => "XYZRL@^",
         }
     }
 
@@ -151,8 +153,8 @@ pub enum FeedMode {
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 #[allow(missing_docs)]
 pub enum Retract {
-    #[default]
     OldZ,
+    #[default]
     R,
 }
 
@@ -292,7 +294,7 @@ impl Modal {
             work_offset: options.work_offset.min(options.work_offsets.len() - 1),
             feed: None,
             feed_mode: FeedMode::PerMinute,
-            retract: Retract::OldZ,
+            retract: Retract::R,
             diameter: false,
             offsets: Offsets::default(),
             local_suspended: false,
@@ -302,7 +304,7 @@ impl Modal {
             surface_speed: None,
             naive_tolerance: 0.0,
             adaptive_feed: false,
-            feed_hold: false,
+            feed_hold: true,
             tool_in_spindle: 0,
             speed_override: true,
             speed: 0.0,

@@ -99,7 +99,7 @@ impl Request {
         let before = out.len();
         self.check_values(state, out);
         if known && out.len() == before && !self.is_plain_move() {
-            self.check_used(row, source, arena, state, out);
+            self.check_used(row, source, arena, out);
         }
     }
 
@@ -237,9 +237,9 @@ impl Request {
         spans.reduce(|a, b| a.to(b)).unwrap_or_else(|| self.motion_span())
     }
 
-    /// Axis words beyond the six that move; they are taken in the drop-in form alone.
+    /// Words that move an axis.
     fn axis_words(&self) -> bool {
-        const ALL: u32 = bit('X') | bit('Y') | bit('Z') | bit('A') | bit('B') | bit('C') | bit('U') | bit('V') | bit('W');
+        const ALL: u32 = bit('X') | bit('Y') | bit('Z') | bit('A') | bit('B') | bit('C');
         self.has_letter & (ALL | 1 << 26 | 1 << 27) != 0
     }
 
@@ -301,8 +301,39 @@ impl Request {
         [Group::NonModal, Group::Length].into_iter().filter_map(place).find(|(action, _)| action.takes_axes())
     }
 
+    /// Words without which a motion code makes no sense, whatever the modes.
+    fn check_motion(&self, out: &mut Vec<Diag>) {
+        let Some(Action::Motion(Some(motion))) = self.code(Group::Motion) else { return };
+        let help = match motion {
+            Motion::Probe(_) | Motion::Synchronized | Motion::RigidTap | Motion::Canned(_) if !self.axis_words() => {
+                "write where the motion ends"
+            }
+            Motion::Thread => match ['P', 'I', 'J', 'K', 'Z'].iter().find(|&&l| self.word(l).is_none()) {
+                Some(letter) => {
+                    let help = "a thread has its pitch P, its end Z, and I, J, K for its depth";
+                    return out.push(missing(self.motion_span(), &letter.to_string()).help(help));
+                }
+                None if self.value('P').is_some_and(|p| p <= 0.0) => "the pitch P is above 0",
+                None => return,
+            },
+            Motion::Synchronized | Motion::RigidTap if self.word('K').is_none() => {
+                return out.push(missing(self.motion_span(), "K").help("K is the distance a revolution of the spindle"));
+            }
+            Motion::Canned(_) if self.value('L').is_some_and(|l| word::whole(l).is_none()) => "L is a whole number of holes",
+            _ => return,
+        };
+        out.push(missing(self.motion_span(), "an axis word").help(help));
+    }
+
     fn check_values(&self, state: &State, out: &mut Vec<Diag>) {
-        const CHECKED: u32 = bit('F') | bit('S') | bit('T') | bit('P');
+        const CHECKED: u32 = bit('F') | bit('S') | bit('T') | bit('P') | bit('L');
+        self.check_motion(out);
+        if state.options.drop_in
+            && self.code(Group::NonModal) == Some(Action::Machine)
+            && !matches!(self.motion, Some(Motion::Rapid | Motion::Linear))
+        {
+            out.push(not_now(self.code_span(Group::NonModal), "G53 without a motion", "write G0 or G1 in the block"));
+        }
         if self.has_letter & CHECKED == 0 && self.only_moves() {
             return;
         }
@@ -310,6 +341,13 @@ impl Request {
             if let Some(word) = self.word(letter).filter(|w| w.value < 0.0) {
                 out.push(bad_value(word, "less than zero", "write zero or more"));
             }
+        }
+        if let Some(word) = self.word('L').filter(|w| w.value < 0.0) {
+            out.push(bad_value(word, "less than zero", "write zero or more"));
+        }
+        if let Some(word) = self.word('P').filter(|w| self.motion.is_some_and(Motion::is_arc) && w.whole().is_none_or(|p| p == 0))
+        {
+            out.push(bad_value(word, "not a number of turns", "write a whole number from 1"));
         }
         if let Some(word) = self.word('T').filter(|w| w.whole().is_none()) {
             out.push(bad_value(word, "not the number of a tool", "write a whole number from 0"));
@@ -324,31 +362,41 @@ impl Request {
             out.push(missing(at, "P").help("write the time in seconds, such as G4 P0.5"));
         }
         if let (Some((_, taker)), Some(Action::Motion(Some(motion)))) = (self.taker(), self.code(Group::Motion))
-            && (self.axis_words() || state.options.drop_in)
             && self.axis_words()
         {
             out.push(two_takers(taker, motion, self.code_span(Group::Motion)));
         }
     }
 
-    fn check_used(&self, row: &Row, source: SourceId, arena: &Arena, state: &State, out: &mut Vec<Diag>) {
+    fn check_used(&self, row: &Row, source: SourceId, arena: &Arena, out: &mut Vec<Diag>) {
         let own = (0..GROUPS).filter(|i| self.has_code & (1 << i) != 0).map(|i| self.codes[i].0);
         let modal = (!self.has_group(Group::Motion)).then_some(Action::Motion(self.motion));
-        let spare = matches!(self.motion, Some(Motion::Canned(_) | Motion::Thread));
         for word in &arena.words[row.words.range()] {
-            if matches!(word.letter, 'G' | 'M' | 'F' | 'S' | 'T' | '$') || foreign_axis(word.letter, state) {
+            if matches!(word.letter, 'G' | 'M' | 'F' | 'S' | 'T') {
                 continue;
             }
-            let foreign = matches!(word.letter, 'U' | 'V' | 'W');
-            let readers = own.clone().chain(modal).filter(|a| !foreign && a.operands().contains(word.letter)).count();
+            if word.letter == '$' && self.has_spindle_code() {
+                continue;
+            }
+            let readers = own.clone().chain(modal).filter(|a| a.operands().contains(word.letter)).count();
             let span = Span { source, start: word.place.0, end: word.place.1 };
             match readers {
                 0 => out.push(unused(word.letter, span)),
                 1 => {}
-                _ if spare || self.shared(word.letter) => {}
+                _ if self.shared(word.letter) => {}
                 _ => out.push(claimed_twice(word.letter, span)),
             }
         }
+    }
+
+    /// A code that names a spindle.
+    fn has_spindle_code(&self) -> bool {
+        let groups = [Group::Spindle, Group::SpindleMode, Group::Overrides];
+        let motion = matches!(
+            self.motion,
+            Some(Motion::Synchronized | Motion::RigidTap | Motion::Thread | Motion::Canned(74 | 84 | 86 | 87 | 88))
+        );
+        motion || self.word('S').is_some() || groups.into_iter().any(|g| self.has_group(g))
     }
 
     /// Letters that two codes of one block may read: both mean the same.
@@ -362,11 +410,6 @@ impl Request {
     pub fn tolerance(&self, control: Control) -> f64 {
         if control == Control::Continuous { self.value('P').unwrap_or(0.0) } else { 0.0 }
     }
-}
-
-/// U, V, W: there are no such axes, but the drop-in form takes the words.
-fn foreign_axis(letter: char, state: &State) -> bool {
-    state.options.drop_in && matches!(letter, 'U' | 'V' | 'W')
 }
 
 const fn bit(letter: char) -> u32 {

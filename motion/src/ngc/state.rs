@@ -65,6 +65,7 @@ impl State {
         for (i, offset) in options.work_offsets.iter().enumerate() {
             state.store(WORK_FIRST + 20 * i as u16, *offset);
         }
+        state.params.set(5599, 1.0);
         state.params.set(5220, modal.work_offset as f64 + 1.0);
         for &(index, value) in options.parameters.iter() {
             state.params.set(index, value);

@@ -24,7 +24,7 @@ impl Listing {
 
     /// The rows of a step, each with its line end, added to `out`.
     pub fn step(&mut self, step: &Step, out: &mut String) {
-        if !self.opened && step.block > 0 {
+        if !self.opened && step.line > 0 {
             self.open(out);
         }
         match &step.command {

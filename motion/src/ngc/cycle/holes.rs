@@ -50,6 +50,16 @@ impl Cycle<'_, '_, '_> {
         }
     }
 
+    /// Words that a hole needs, before the first one is made.
+    pub(super) fn check_words(&self, motion: Motion) -> Done {
+        match motion {
+            Motion::Canned(73 | 83) => self.peck_depth().map(|_| ()),
+            Motion::Canned(82 | 86 | 88 | 89) => self.dwell_word(motion).map(|_| ()),
+            Motion::Canned(87) => self.beside().map(|_| ()),
+            _ => Ok(()),
+        }
+    }
+
     fn dwell_word(&self, motion: Motion) -> Result<f64, Box<Diag>> {
         let at = self.run.request.motion_span();
         match self.words.p {
@@ -59,8 +69,7 @@ impl Cycle<'_, '_, '_> {
         }
     }
 
-    /// G83 clears the chips at R, G73 breaks them in the hole.
-    fn peck(&mut self, clear: bool) -> Done {
+    fn peck_depth(&self) -> Result<f64, Box<Diag>> {
         let request = self.run.request;
         let help = "write the depth of a peck, such as Q2";
         let Some(q) = self.words.q else { return Err(Box::new(missing(request.motion_span(), "Q").help(help))) };
@@ -69,6 +78,12 @@ impl Cycle<'_, '_, '_> {
             let diag = word.map(|w| bad_value(w, "no depth of a peck", help));
             return Err(Box::new(diag.unwrap_or_else(|| missing(request.motion_span(), "Q").help(help))));
         }
+        Ok(q)
+    }
+
+    /// G83 clears the chips at R, G73 breaks them in the hole.
+    fn peck(&mut self, clear: bool) -> Done {
+        let q = self.peck_depth()?;
         let above = PECK_MM / mm_per_unit(self.run.state.modal.units);
         let mut depth = self.r - q;
         while depth > self.bottom {
@@ -150,12 +165,18 @@ impl Cycle<'_, '_, '_> {
         Ok(())
     }
 
+    /// I, J and K of G87.
+    fn beside(&self) -> Result<[f64; 3], Box<Diag>> {
+        if let [Some(i), Some(j), Some(k)] = self.words.ijk {
+            return Ok([i, j, k]);
+        }
+        let at = self.run.request.motion_span();
+        Err(Box::new(missing(at, "I, J and K").help("I and J lead beside the hole, K is the end of the bore")))
+    }
+
     /// G87: in beside the hole, over to it, up to K, and out again.
     fn back_bore(&mut self, motion: Motion) -> Done {
-        let at = self.run.request.motion_span();
-        let [Some(i), Some(j), Some(k)] = self.words.ijk else {
-            return Err(Box::new(missing(at, "I, J and K").help("I and J lead beside the hole, K is the end of the bore")));
-        };
+        let [i, j, k] = self.beside()?;
         let way = self.turning(motion, None)?;
         let beside = [self.at[0] + i, self.at[1] + j];
         let k = if self.run.state.modal.distance == Distance::Absolute { k } else { self.bottom + k };

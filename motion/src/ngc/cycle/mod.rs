@@ -77,6 +77,7 @@ fn holes(run: &mut Run, motion: Motion, words: Sticky, [r, bottom, clear]: [f64;
     let mode = cycle.run.state.modal.control;
     cycle.exact_path(mode);
     cycle.at = [end[0], end[1]];
+    cycle.check_words(motion)?;
     for i in 0..repeats {
         if i > 0 && !absolute {
             cycle.at = [cycle.at[0] + step[0], cycle.at[1] + step[1]];
@@ -114,11 +115,6 @@ fn check_modes(run: &mut Run, motion: Motion) -> Done {
     }
     if run.state.modal.side.is_some() {
         return refuse(format!("{} while G41 or G42 is in force", motion.text()), "write G40 first");
-    }
-    if let Some(word) = ['A', 'B', 'C'].into_iter().find_map(|l| run.request.word(l)) {
-        return Err(Box::new(
-            Diag::new(Code::UnusedWord, word.span, "a canned cycle moves no rotary axis").help("move it before"),
-        ));
     }
     motion::check_feed(run, motion)
 }

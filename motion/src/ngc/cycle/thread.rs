@@ -16,9 +16,11 @@ struct Thread {
     /// From outside to inside: -1, or 1 for a bore.
     side: f64,
     pitch: f64,
-    /// First and full depth from the drive line.
-    first: f64,
+    /// Depth of the first cut, and full depth from the drive line.
+    cut: f64,
     full: f64,
+    /// From the drive line to the peak of the thread.
+    peak: f64,
     height: f64,
     end_z: f64,
     degression: f64,
@@ -55,10 +57,7 @@ fn words(run: &Run) -> Result<Thread, Box<Diag>> {
     let cut = need_positive(request, 'J', "J is the depth of the first cut, above 0")?;
     let height = need_positive(request, 'K', "K is the full depth of the thread, above 0")?;
     let end_z = need(request, 'Z', "Z is the end of the thread")?.value;
-    let degression = request.value('R').unwrap_or(1.0);
-    if degression < 1.0 {
-        return Err(refuse('R', "R is 1 or more: 1 for equal depths, 2 for equal areas"));
-    }
+    let degression = request.value('R').unwrap_or(1.0).max(1.0);
     if cut > height {
         return Err(refuse('J', "the first cut is not deeper than the thread (K)"));
     }
@@ -83,8 +82,9 @@ fn words(run: &Run) -> Result<Thread, Box<Diag>> {
         start,
         side: if i > 0.0 { 1.0 } else { -1.0 },
         pitch,
-        first: i.abs() + cut,
+        cut,
         full: i.abs() + height,
+        peak: i.abs(),
         height,
         end_z,
         degression,
@@ -98,8 +98,8 @@ fn words(run: &Run) -> Result<Thread, Box<Diag>> {
 
 impl Thread {
     fn make(&self, run: &mut Run) -> Done {
-        let cut = self.first - (self.full - self.height);
-        let (mut pass, mut depth) = (1_u32, self.first);
+        let depth_of = |pass: u32| self.peak + self.cut * libm::pow(f64::from(pass), 1.0 / self.degression);
+        let (mut pass, mut depth) = (1_u32, depth_of(1));
         while depth < self.full {
             self.pass(run, depth);
             pass += 1;
@@ -108,7 +108,7 @@ impl Thread {
                 let help = "make J larger or R smaller";
                 return Err(Box::new(Diag::new(Code::BadValue, at, "more than 10000 passes").help(help)));
             }
-            depth = self.full - self.height + cut * libm::pow(f64::from(pass), 1.0 / self.degression);
+            depth = depth_of(pass);
         }
         for _ in 0..=self.springs {
             self.pass(run, self.full);

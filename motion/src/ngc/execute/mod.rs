@@ -197,6 +197,9 @@ impl Run<'_, '_> {
     fn motion(&mut self) {
         if let Some(Action::Motion(motion)) = self.request.code(Group::Motion) {
             self.modal().motion = motion;
+            if motion.is_none() {
+                super::cycle::forget(&mut self.state.sticky);
+            }
         }
         if let Some(motion) = self.request.motion
             && let Err(diag) = motion::run(self, motion)

@@ -110,7 +110,7 @@ impl Run<'_, '_> {
         let before = self.state.modal.offsets;
         self.modal().change_offsets(Offsets { work, rotation, ..before });
         if self.state.options.drop_in {
-            self.emit_parts(false, rotation != before.rotation);
+            self.emit_parts(false, true);
         } else {
             self.emit_origin(before, false);
         }

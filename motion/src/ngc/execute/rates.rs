@@ -17,10 +17,11 @@ impl Run<'_, '_> {
             self.modal().feed = None;
         }
         let per_rev = mode == FeedMode::PerRevolution;
-        if mode != FeedMode::InverseTime && (drop_in || per_rev != (before == FeedMode::PerRevolution)) {
+        if drop_in || per_rev != (before == FeedMode::PerRevolution) {
             self.emit(Canon::SetFeedMode(per_rev));
-        } else if mode == FeedMode::InverseTime && before == FeedMode::PerRevolution {
-            self.emit(Canon::SetFeedMode(false));
+        }
+        if drop_in && mode != FeedMode::InverseTime {
+            self.emit(Canon::SetFeedRate(0.0));
         }
         Ok(())
     }
@@ -35,6 +36,9 @@ impl Run<'_, '_> {
             self.emit(Canon::SetFeedRate(feed));
         }
         self.spindle_mode()?;
+        if self.request.word('$').is_some() {
+            self.check_spindle()?;
+        }
         if let Some(speed) = self.request.value('S') {
             self.modal().speed = speed;
             self.emit(Canon::SetSpindleSpeed(speed));
@@ -64,7 +68,7 @@ impl Run<'_, '_> {
             (true, word) => Some(word.map_or(1e30, |w| w.value)),
             (false, _) => None,
         };
-        if self.request.word('S').is_none() && (on || self.state.options.drop_in) {
+        if self.request.word('S').is_none() && on {
             return Err(Box::new(missing(at, "S").help("write the speed, such as G96 S100 D2000 or G97 S1500")));
         }
         self.modal().surface_speed = max;

@@ -85,10 +85,6 @@ pub fn epilogue(state: &mut State, out: &mut Out, end: ProgramEnd) {
         state.modal.overrides = true;
         out.emit(Canon::EnableFeedOverride);
     }
-    if !state.modal.speed_override {
-        state.modal.speed_override = true;
-        out.emit(Canon::EnableSpeedOverride);
-    }
     state.modal.spindle = None;
     out.emit(Canon::StopSpindleTurning);
     state.modal.surface_speed = None;

@@ -2,7 +2,7 @@
 
 use super::{Done, Run};
 use crate::canon::{Canon, Direction, Input};
-use crate::ngc::modal::Modal;
+use crate::ngc::modal::{FeedMode, Modal};
 use crate::ngc::request::{bad_value, missing};
 use crate::ngc::state::SavedModes;
 use crate::ngc::word::{Action, Coolant, Group, Modes, Override};
@@ -36,7 +36,7 @@ impl Run<'_, '_> {
     }
 
     /// There is one spindle: `$0`; `$-1` means all of them.
-    fn check_spindle(&self) -> Done {
+    pub(super) fn check_spindle(&self) -> Done {
         match self.request.word('$') {
             Some(word) if word.value != 0.0 && word.value != -1.0 => {
                 Err(Box::new(bad_value(word, "no such spindle", "there is one spindle, $0")))
@@ -55,10 +55,9 @@ impl Run<'_, '_> {
     }
 
     fn orient(&mut self) -> Done {
-        let at = self.request.code_span(Group::Spindle);
         let Some(word) = self.request.word('R') else {
             if self.state.options.drop_in {
-                return Err(Box::new(missing(at, "R").help("write the angle, such as M19 R90")));
+                return Ok(());
             }
             self.emit(Canon::OrientSpindle(0.0, Direction::Clockwise));
             return Ok(());
@@ -163,10 +162,10 @@ impl Run<'_, '_> {
             return Err(Box::new(missing(at, &letter.to_string()).help(help)));
         };
         let near = word.value.round();
-        if (0.0..=63.0).contains(&near) {
+        if (0.0..=f64::from(u16::MAX)).contains(&near) {
             return Ok(near as u32);
         }
-        Err(Box::new(bad_value(word, "no such output", "write a whole number from 0 to 63")))
+        Err(Box::new(bad_value(word, "no such output", "write a whole number from 0")))
     }
 
     /// M66. The answer of the machine is not known while the program is read ahead: `#5399` becomes the value of the host, or 0.
@@ -217,19 +216,42 @@ impl Run<'_, '_> {
         Ok(())
     }
 
-    /// Brings back saved modes; what moved stays where it is.
+    /// Brings back saved modes, in LinuxCNC's order; what moved stays where it is.
     pub fn restore_modes(&mut self, saved: &Modal) {
-        self.use_plane(saved.plane);
         self.use_units(saved.units);
+        let drop_in = self.state.options.drop_in;
+        if self.state.modal.feed_mode != saved.feed_mode {
+            self.modal().feed_mode = saved.feed_mode;
+            self.modal().feed = None;
+            self.emit(Canon::SetFeedMode(saved.feed_mode == FeedMode::PerRevolution));
+            if drop_in && saved.feed_mode != FeedMode::InverseTime {
+                self.emit(Canon::SetFeedRate(0.0));
+            }
+        }
+        if self.state.modal.feed.unwrap_or(0.0) != saved.feed.unwrap_or(0.0) && saved.feed_mode != FeedMode::InverseTime {
+            self.modal().feed = saved.feed;
+            if saved.feed.is_some() || drop_in {
+                self.emit(Canon::SetFeedRate(saved.feed.unwrap_or(0.0)));
+            }
+        }
+        if self.state.modal.speed != saved.speed {
+            self.modal().speed = saved.speed;
+            self.emit(Canon::SetSpindleSpeed(saved.speed));
+        }
+        self.use_plane(saved.plane);
+        self.work_offset(saved.work_offset);
+        if self.state.modal.control != saved.control {
+            self.modal().control = saved.control;
+            self.modal().naive_tolerance = saved.naive_tolerance;
+            self.emit(Canon::SetMotionControlMode(saved.control));
+            if drop_in {
+                self.emit(Canon::SetNaivecamTolerance(saved.naive_tolerance));
+            }
+        }
         let modal = self.modal();
         modal.distance = saved.distance;
         modal.arc_distance = saved.arc_distance;
         modal.diameter = saved.diameter;
         modal.retract = saved.retract;
-        modal.motion = saved.motion;
-        modal.feed_mode = saved.feed_mode;
-        modal.feed = saved.feed;
-        modal.speed = saved.speed;
-        modal.surface_speed = saved.surface_speed;
     }
 }

@@ -55,11 +55,16 @@ impl Run<'_, '_> {
         let Some(word) = self.request.word('Q') else {
             return Err(Box::new(missing(at, "Q").help("write the number of the tool in the spindle, such as M61 Q3")));
         };
-        let Some(number) = word.whole() else {
+        let rounded = Word { value: word.value.round(), ..word };
+        let Some(number) = if self.state.options.drop_in { rounded } else { word }.whole() else {
             return Err(Box::new(bad_value(word, "not the number of a tool", "write a whole number from 0")));
         };
         let entry = self.tool(number, word.span)?;
-        self.load(entry);
+        if self.state.options.drop_in {
+            self.modal().tool_in_spindle = number;
+        } else {
+            self.load(entry);
+        }
         self.modal().tool = number;
         self.emit(Canon::ChangeToolNumber(number));
         Ok(())
@@ -76,7 +81,7 @@ impl Run<'_, '_> {
                 let at = self.request.code_span(Group::Length);
                 let added = match self.request.word('H') {
                     Some(_) => self.offset_of_h()?,
-                    None if self.request.any("XYZABC") => self.given(Position::default()),
+                    None if self.request.any("XYZABC") && !self.state.options.drop_in => self.given(Position::default()),
                     None => {
                         return Err(Box::new(missing(at, "H").help("write the tool whose offset is added, such as G43.2 H2")));
                     }

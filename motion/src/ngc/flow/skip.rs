@@ -17,8 +17,7 @@ impl Flow {
             }
         }
         loop {
-            let place = self.files.lines().place;
-            let Some(row) = self.next_oword() else {
+            let Some((row, place)) = self.next_oword() else {
                 let help = "write the O word that ends it, with the same number or name";
                 return Err(misfit(from, "nothing ends this block", help));
             };
@@ -44,9 +43,10 @@ impl Flow {
         }
     }
 
-    /// The next row with an O word; `None` at the end of the text.
-    fn next_oword(&mut self) -> Option<Row> {
+    /// The next row with an O word, and where it stands; `None` at the end of the text.
+    fn next_oword(&mut self) -> Option<(Row, Place)> {
         loop {
+            let place = self.files.lines().place;
             let piece = self.files.next_piece()?;
             let text = self.files.text_ref();
             let inside = &text[piece.range.clone()];
@@ -59,7 +59,7 @@ impl Flow {
             }
             let mark = self.code.mark();
             match self.reader.read(inside, piece.range.start, piece.line, &mut self.code) {
-                Ok(row) if wanted => return Some(row),
+                Ok(row) if wanted => return Some((row, place)),
                 Ok(_) => self.code.truncate(mark),
                 Err(fault) if self.thorough => self.found.push((piece.line, fault)),
                 Err(_) => {}
@@ -74,7 +74,7 @@ impl Flow {
         self.files.lines().place = Place::default();
         loop {
             let mark = self.code.mark();
-            let Some(row) = self.next_oword() else { break };
+            let Some((row, _)) = self.next_oword() else { break };
             if let Some(word) = row.oword
                 && matches!(word.keyword, Keyword::Sub | Keyword::Program)
                 && let Some(key) = self.key(word.label)

@@ -29,6 +29,9 @@ pub fn run(run: &mut Run, motion: Motion) -> Done {
     if motion != Motion::Nurbs && motion != Motion::NurbsEnd {
         run.state.nurbs = None;
     }
+    if !matches!(motion, Motion::Canned(_)) {
+        cycle::forget(&mut run.state.sticky);
+    }
     match motion {
         Motion::Rapid | Motion::Linear | Motion::ArcCw | Motion::ArcCcw => plain(run, motion),
         Motion::Canned(code) => cycle::run(run, code),

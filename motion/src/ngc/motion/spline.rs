@@ -28,6 +28,10 @@ pub fn run(run: &mut Run, motion: Motion) -> Done {
         }
         check_feed(run, motion)?;
     }
+    if let Some(word) = ['Z', 'A', 'B', 'C'].into_iter().find_map(|l| run.request.word(l)) {
+        let diag = Diag::new(Code::UnusedWord, word.span, "a spline moves X and Y alone");
+        return Err(Box::new(diag.help("move the other axes before or behind it")));
+    }
     match motion {
         Motion::Cubic => cubic(run),
         Motion::Quadratic => quadratic(run),
@@ -57,6 +61,7 @@ fn cubic(run: &mut Run) -> Done {
     run.emit(Canon::NurbsFeed(Nurbs { order: 4, points: vec![[from.x, from.y, 1.0], first, second, [end.x, end.y, 1.0]] }));
     run.modal().position = end;
     run.state.spline_end = Some([-p, -q]);
+    run.modal().motion = None;
     Ok(())
 }
 
@@ -71,6 +76,7 @@ fn quadratic(run: &mut Run) -> Done {
     let middle = [from.x + i, from.y + j, 1.0];
     run.emit(Canon::NurbsFeed(Nurbs { order: 3, points: vec![[from.x, from.y, 1.0], middle, [end.x, end.y, 1.0]] }));
     run.modal().position = end;
+    run.modal().motion = None;
     Ok(())
 }
 

@@ -76,7 +76,7 @@ fn number_word(cursor: &mut Cursor) -> Result<Option<u32>, Fault> {
 fn item(byte: u8, cursor: &mut Cursor, arena: &mut Arena, _first: usize) -> Result<(), Fault> {
     match byte {
         b'a'..=b'z' | b'@' | b'^' => letter(byte, cursor, arena),
-        b'$' if cursor.bytes.get(cursor.pos + 1).is_some_and(|b| matches!(b, b'0'..=b'9' | b'[' | b'#')) => {
+        b'$' if cursor.bytes.get(cursor.pos + 1).is_some_and(|b| matches!(b, b'0'..=b'9' | b'[' | b'#' | b'-')) => {
             letter(byte, cursor, arena)
         }
         b'#' => setting(cursor, arena),

@@ -24,10 +24,8 @@ impl Squeezed {
             match byte {
                 b' ' | b'\t' => {}
                 b'(' => i = comment(bytes, i, start, comments)?,
-                b';' => {
-                    line_comment(bytes, i, start, comments);
-                    break;
-                }
+                // LinuxCNC drops it as well, whatever it says.
+                b';' => break,
                 _ => {
                     self.bytes.push(byte.to_ascii_lowercase());
                     self.at.push((start + i) as u32);
@@ -56,16 +54,6 @@ fn comment(bytes: &[u8], i: usize, start: usize, comments: &mut Vec<Comment>) ->
     let from = start + i + 1;
     comments.push(Comment { kind, place: ((from + skip) as u32, (from + length) as u32) });
     Ok(i + 1 + length)
-}
-
-/// `; text` up to the end of the row: only what asks for something is kept.
-fn line_comment(bytes: &[u8], i: usize, start: usize, comments: &mut Vec<Comment>) {
-    let inside = &bytes[i + 1..];
-    let (kind, skip) = kind_of(inside);
-    if kind != CommentKind::Plain {
-        let from = start + i + 1;
-        comments.push(Comment { kind, place: ((from + skip) as u32, (from + inside.len()) as u32) });
-    }
 }
 
 const KEYWORDS: [(&[u8], CommentKind); 8] = [
