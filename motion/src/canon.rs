@@ -165,7 +165,7 @@ pub enum Canon {
     /// Extension: M61.
     ChangeToolNumber(u32),
     /// Extension: G10 L1, L10, L11.
-    SetToolTableEntry(ToolEntry),
+    SetToolTableEntry(Box<ToolEntry>),
     /// Extension, drop-in listing only: M19 with its P word.
     OrientSpindleMode(f64, u32),
     /// Extension: M19 waits up to this many seconds.

@@ -172,6 +172,7 @@ codes! {
     N0022 EndlessProgram "the program runs in a circle and does nothing";
     N0023 UnknownTool "the tool is not in the tool table";
     N0024 BadTable "this row of a table can't be read";
+    N0025 CompensationFault "the tool can't follow the contour with cutter compensation";
     N0026 SpindleStopped "the code needs a turning spindle";
     N0027 NotInThisMode "the code is not allowed in the mode that is in force";
     N0028 ProgramAborted "the program stops itself";

@@ -179,6 +179,7 @@ impl Interpreter {
             if !self.state.options.drop_in {
                 self.queue.truncate(mark);
             }
+            self.state.comp.reset();
             self.ended |= then == Then::End && !self.state.options.drop_in;
             return;
         }
@@ -283,6 +284,8 @@ impl Interpreter {
     fn finish(&mut self) {
         self.ended = true;
         let line = self.flow.files.lines().line();
+        let mut out = Out { queue: &mut self.queue, diags: &mut self.diags, block: self.block, line, n: None };
+        execute::release(&mut self.state, &mut out);
         self.queue.push_back(Step { block: self.block, line, n: None, command: Canon::ProgramEnd(ProgramEnd::EndOfFile) });
     }
 

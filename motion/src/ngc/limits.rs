@@ -10,12 +10,15 @@ use takt_base::{Code, Diag, Span};
 /// What is wrong with the move `command` at `at`. `modal` is the state at the start of the move.
 pub fn check(command: &Canon, at: Span, modal: &Modal, options: &Options) -> Vec<Diag> {
     let machine = |p: Position| modal.machine(p);
-    let travel = options.travel.and_then(|travel| {
-        let outside = |p| outside(p, travel.min, travel.max);
-        farthest(command, modal).into_iter().map(machine).find_map(outside).map(|o| o.diag(at))
-    });
     let grid = options.grid.and_then(|blu| given(command, modal).into_iter().map(machine).find_map(|p| off_grid(p, blu, at)));
-    travel.into_iter().chain(grid).collect()
+    check_travel(command, at, modal, options).into_iter().chain(grid).collect()
+}
+
+/// The same for the travel alone.
+pub fn check_travel(command: &Canon, at: Span, modal: &Modal, options: &Options) -> Option<Diag> {
+    let travel = options.travel?;
+    let outside = |p| outside(p, travel.min, travel.max);
+    farthest(command, modal).into_iter().map(|p| modal.machine(p)).find_map(outside).map(|o| o.diag(at))
 }
 
 /// The places of a move that can be farthest out.

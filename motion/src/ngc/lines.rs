@@ -111,7 +111,7 @@ impl Lines {
 /// The line that starts at `start`, without its end (LF, CRLF or a lone CR), and where the next one starts.
 fn line_at(text: &str, start: usize) -> (Range<usize>, usize) {
     let bytes = text.as_bytes();
-    match bytes[start..].iter().position(|b| matches!(b, b'\n' | b'\r')) {
+    match bytes[start..].iter().position(|&b| b <= b'\r' && (b == b'\n' || b == b'\r')) {
         None => (start..text.len(), text.len()),
         Some(n) => {
             let end = start + n;

@@ -75,10 +75,10 @@ impl Run<'_, '_> {
         self.set_tool_offsets(&mut entry, l);
         self.set_tool_shape(&mut entry)?;
         self.state.tools.set(entry);
-        self.emit(Canon::SetToolTableEntry(entry));
+        self.emit(Canon::SetToolTableEntry(Box::new(entry)));
         if number == self.state.modal.tool_in_spindle {
             self.state.tools.load(entry);
-            self.emit(Canon::SetToolTableEntry(ToolEntry { index: 0, ..entry }));
+            self.emit(Canon::SetToolTableEntry(Box::new(ToolEntry { index: 0, ..entry })));
         }
         Ok(())
     }

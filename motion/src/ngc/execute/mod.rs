@@ -16,7 +16,7 @@ pub use stop::epilogue;
 use super::code::{Code as Arena, Row};
 use super::modal::Modal;
 use super::motion;
-use super::request::Request;
+use super::request::{Request, not_now};
 use super::state::State;
 use super::word::{Action, Control, Group};
 use crate::canon::{Canon, ProgramEnd, Step};
@@ -96,9 +96,14 @@ pub struct Run<'a, 'b> {
 pub type Done = Result<(), Box<Diag>>;
 
 impl Run<'_, '_> {
-    /// Adds a command.
+    /// Adds a command; it waits behind a move that waits.
     pub fn emit(&mut self, command: Canon) {
-        self.out.emit(command);
+        let said = matches!(command, Canon::Comment(_) | Canon::Message(_) | Canon::Print(_) | Canon::Log(_));
+        if !self.state.comp.waits() || (said && self.state.options.drop_in) {
+            return self.out.emit(command);
+        }
+        let step = Step { block: self.out.block, line: self.out.line, n: self.out.n, command };
+        self.state.comp.hold(step);
     }
 
     /// The modes.
@@ -168,7 +173,7 @@ impl Run<'_, '_> {
 
     fn modes(&mut self) -> Done {
         if let Some(Action::Control(control)) = self.request.code(Group::Control) {
-            self.control(control);
+            self.control(control)?;
         }
         if let Some(Action::Distance(distance)) = self.request.code(Group::Distance) {
             self.modal().distance = distance;
@@ -182,7 +187,11 @@ impl Run<'_, '_> {
         Ok(())
     }
 
-    fn control(&mut self, control: Control) {
+    fn control(&mut self, control: Control) -> Done {
+        if self.state.modal.side.is_some() && self.state.options.drop_in {
+            let at = self.request.code_span(Group::Control);
+            return Err(Box::new(not_now(at, "another path control while G41 or G42 is in force", "write G40 first")));
+        }
         let mode = control.mode(self.request.tolerance(control));
         self.modal().control = mode;
         self.emit(Canon::SetMotionControlMode(mode));
@@ -192,6 +201,7 @@ impl Run<'_, '_> {
             self.modal().naive_tolerance = tolerance;
             self.emit(Canon::SetNaivecamTolerance(tolerance));
         }
+        Ok(())
     }
 
     fn motion(&mut self) {
@@ -223,4 +233,9 @@ pub const AT_END: ProgramEnd = ProgramEnd::EndOfFile;
 /// Brings back modes that a subroutine saved (M73).
 pub fn restore(state: &mut State, request: &Request, out: &mut Out, saved: &Modal) {
     Run { request, state, out, then: Then::Next }.restore_modes(saved);
+}
+
+/// Lets a move out that waits for the next one (cutter compensation), at the end of a program.
+pub fn release(state: &mut State, out: &mut Out) {
+    super::comp::release(state, out);
 }

@@ -26,6 +26,10 @@ impl Run<'_, '_> {
             self.emit(Canon::SelectPlane(plane));
         }
         if let Some(Action::Units(units)) = self.request.code(Group::Units) {
+            if self.state.comp.waits() && units != self.state.modal.units {
+                let at = self.request.code_span(Group::Units);
+                return Err(Box::new(not_now(at, "another unit while G41 or G42 is in force", "write G40 first")));
+            }
             self.modal().change_units(units);
             self.emit(Canon::UseLengthUnits(units));
         }

@@ -45,9 +45,11 @@ impl Run<'_, '_> {
     /// M2 and M30 bring back what a program may have changed (R1-40), each only if it did.
     fn end(&mut self, end: ProgramEnd) {
         self.then = Then::End;
+        self.flush_compensation();
         if self.state.options.drop_in {
             return epilogue(self.state, self.out, end);
         }
+        self.modal().side = None;
         self.work_offset(0);
         self.use_plane(Plane::Xy);
         if !self.state.modal.overrides || !self.state.modal.speed_override {

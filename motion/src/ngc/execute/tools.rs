@@ -24,7 +24,10 @@ impl Run<'_, '_> {
     }
 
     /// The row of a tool.
-    pub(super) fn tool(&self, number: u32, at: Span) -> Result<ToolEntry, Box<Diag>> {
+    ///
+    /// # Errors
+    /// It is not in the table.
+    pub fn tool(&self, number: u32, at: Span) -> Result<ToolEntry, Box<Diag>> {
         self.state.tools.find(number).ok_or_else(|| Box::new(unknown_tool(number, at)))
     }
 
@@ -72,6 +75,10 @@ impl Run<'_, '_> {
 
     pub(super) fn tool_length(&mut self) -> Done {
         let Some(Action::Length(length)) = self.request.code(Group::Length) else { return Ok(()) };
+        if self.state.modal.side.is_some() {
+            let at = self.request.code_span(Group::Length);
+            return Err(Box::new(not_now(at, "another tool length while G41 or G42 is in force", "write G40 first")));
+        }
         let present = self.state.modal.offsets.tool;
         let offset = match length {
             Length::Off => Position::default(),

@@ -66,11 +66,6 @@ impl Files {
         file.lines.next(&file.text)
     }
 
-    /// The text at hand.
-    pub fn text(&self) -> Arc<str> {
-        self.all[self.at as usize].text.clone()
-    }
-
     /// The text at hand, borrowed.
     pub fn text_ref(&self) -> &str {
         &self.all[self.at as usize].text

@@ -166,7 +166,7 @@ impl Flow {
 
     fn read(&mut self) -> Next {
         let Some(piece) = self.files.next_piece() else { return Next::End };
-        let text = self.files.text();
+        let text = self.files.text_ref();
         let inside = &text[piece.range.clone()];
         if inside.trim_start_matches([' ', '\t']).starts_with('%') {
             return Next::Percent(piece.range.start, piece.range.end);

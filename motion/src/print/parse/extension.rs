@@ -17,7 +17,7 @@ pub(super) fn read(name: &str, inside: &str, args: &[&str]) -> Result<Canon, Bad
         "SET_SPINDLE_MODE" => one_number(args).map(|max| Canon::SetSpindleMode((max > 0.0).then_some(max))),
         "SET_NAIVECAM_TOLERANCE" => one_number(args).map(Canon::SetNaivecamTolerance),
         "CHANGE_TOOL_NUMBER" => count(args).map(Canon::ChangeToolNumber),
-        "SET_TOOL_TABLE_ENTRY" => tool_entry(args).map(Canon::SetToolTableEntry),
+        "SET_TOOL_TABLE_ENTRY" => tool_entry(args).map(|entry| Canon::SetToolTableEntry(Box::new(entry))),
         "ORIENT_SPINDLE_MODE" => angle_and_mode(args),
         "WAIT_ORIENT_COMPLETE" => one_number(args).map(Canon::WaitOrientComplete),
         "START_SPEED_FEED_SYNC" => one_number(args).map(Canon::StartSpeedFeedSync),
