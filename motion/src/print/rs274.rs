@@ -22,7 +22,7 @@ impl Listing {
         Listing { rows: 0, opened: false, closed: false, table_unit }
     }
 
-    /// The rows of a step, each with its line end, added to `out`.
+    /// The rows of a step, each with its line end, added to `out`. A `PRINT` has none: its text goes to the console.
     pub fn step(&mut self, step: &Step, out: &mut String) {
         if !self.opened && step.line > 0 {
             self.open(out);
@@ -32,10 +32,6 @@ impl Listing {
                 self.row(step.n, if *end == ProgramEnd::EndOfFile { "FINISH()" } else { "PROGRAM_END()" }, out);
                 self.row(None, "ON_RESET()", out);
                 self.closed = true;
-            }
-            Canon::Print(text) => {
-                out.push_str(text);
-                out.push('\n');
             }
             command => {
                 let text = call(command, self.table_unit);

@@ -1,6 +1,7 @@
 //! Parameters: numbered `#1` .. `#5601` and named `#<local>`, `#<_global>`, and those that show the state of the interpreter.
 //! Runs: background. From: RS274/NGC §3.2.1, LinuxCNC "Parameters".
 
+pub mod file;
 pub mod names;
 pub mod predefined;
 
