@@ -9,7 +9,7 @@ use takt_base::{Code, Diag};
 
 /// How far above the last depth a peck ends its rapid, in mm: a hundredth of an inch.
 const PECK_MM: f64 = 0.254;
-/// Pecks that one hole may have.
+/// Pecks that the holes of one block may have.
 const PECKS_MAX: f64 = 100_000.0;
 
 impl Cycle<'_, '_, '_> {
@@ -73,7 +73,7 @@ impl Cycle<'_, '_, '_> {
         let request = self.run.request;
         let help = "write the depth of a peck, such as Q2";
         let Some(q) = self.words.q else { return Err(Box::new(missing(request.motion_span(), "Q").help(help))) };
-        if q <= 0.0 || (self.r - self.bottom) / q > PECKS_MAX {
+        if q <= 0.0 || (self.r - self.bottom) / q * f64::from(self.repeats) > PECKS_MAX {
             let word = request.word('Q');
             let diag = word.map(|w| bad_value(w, "no depth of a peck", help));
             return Err(Box::new(diag.unwrap_or_else(|| missing(request.motion_span(), "Q").help(help))));

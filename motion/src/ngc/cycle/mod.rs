@@ -37,6 +37,8 @@ pub(super) struct Cycle<'r, 'a, 'b> {
     words: Sticky,
     /// First and second coordinate.
     at: [f64; 2],
+    /// Holes of the block.
+    repeats: u32,
 }
 
 /// Makes the cycle with this code.
@@ -69,7 +71,7 @@ fn holes(run: &mut Run, motion: Motion, words: Sticky, [r, bottom, clear]: [f64;
     let step = [end[0] - here[0], end[1] - here[1]];
     let absolute = run.state.modal.distance == Distance::Absolute;
     let mut level = here[2];
-    let mut cycle = Cycle { run, plane, r, bottom, clear, words, at: [here[0], here[1]] };
+    let mut cycle = Cycle { run, plane, r, bottom, clear, words, at: [here[0], here[1]], repeats };
     if words.initial < r {
         cycle.traverse_to(r);
         level = r;

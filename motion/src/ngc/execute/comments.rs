@@ -86,8 +86,8 @@ fn parameter(rest: &str, state: &State, arena: &Arena) -> (usize, Option<f64>) {
         && let Some(end) = name.find('>')
     {
         let plain: String = name[..end].chars().filter(|c| !c.is_whitespace()).collect::<String>().to_ascii_lowercase();
-        let mut names = arena.names.clone();
-        return (end + 3, state.named(names.intern(&plain), arena));
+        let name = arena.names.find(&plain).or_else(|| crate::ngc::param::Names::fixed(&plain));
+        return (end + 3, name.and_then(|name| state.named(name, arena)));
     }
     let digits = inside.bytes().take_while(u8::is_ascii_digit).count();
     let index = inside[..digits].parse().ok().and_then(param::index);

@@ -51,6 +51,11 @@ impl Names {
         name
     }
 
+    /// A name that shows the state of the interpreter.
+    pub fn fixed(text: &str) -> Option<Name> {
+        Predefined::named(text).map(|predefined| Name { id: u32::MAX, kind: Kind::Fixed(predefined) })
+    }
+
     /// The name, if it was ever read.
     pub fn find(&self, text: &str) -> Option<Name> {
         self.map.get(text).copied()
