@@ -19,6 +19,7 @@ mod project;
 mod report;
 mod retain;
 mod session;
+mod subroutines;
 mod test_report;
 mod watch;
 
@@ -47,6 +48,7 @@ enum Command {
     Bench(commands::bench::Args),
     Explain(commands::explain::Args),
     Gcode(commands::gcode::Args),
+    Rs274(commands::rs274::Args),
 }
 
 /// Exit status of the process.
@@ -73,6 +75,7 @@ fn main() -> std::process::ExitCode {
         Command::Bench(a) => commands::bench::run(a),
         Command::Explain(a) => commands::explain::run(a),
         Command::Gcode(a) => commands::gcode::run(a),
+        Command::Rs274(a) => commands::rs274::run(a),
     };
     std::process::ExitCode::from(status as u8)
 }

@@ -146,12 +146,121 @@ pub enum Canon {
     OptionalProgramStop,
     /// Extension: M2, M30, or the end of a program without either.
     ProgramEnd(ProgramEnd),
+    /// Extension: rotation of the program about Z in degrees; turns what `SET_ORIGIN_OFFSETS` then shifts (G10 L2 R).
+    SetXyRotation(f64),
+    /// Extension, drop-in listing only: work offset with its number from 1.
+    SetG5xOffset(u32, Position),
+    /// Extension, drop-in listing only: offset of G92 and G52.
+    SetG92Offset(Position),
+    /// Extension: G43 with offsets of other axes than Z: X Y Z A B C.
+    UseToolLengthOffsets(Position),
+    /// Extension: G95 (true), G94.
+    SetFeedMode(bool),
+    /// Extension: G96 with its largest speed; `None`: G97.
+    SetSpindleMode(Option<f64>),
+    /// Extension: naive CAM tolerance, the Q of G64.
+    SetNaivecamTolerance(f64),
+    /// Extension: M6 begins; drop-in listing only.
+    StartChange,
+    /// Extension: M61.
+    ChangeToolNumber(u32),
+    /// Extension: G10 L1, L10, L11.
+    SetToolTableEntry(Box<ToolEntry>),
+    /// Extension, drop-in listing only: M19 with its P word.
+    OrientSpindleMode(f64, u32),
+    /// Extension: M19 waits up to this many seconds.
+    WaitOrientComplete(f64),
+    /// Extension: motion in step with the spindle: length units a revolution (G33).
+    StartSpeedFeedSync(f64),
+    /// Probe towards a point.
+    StraightProbe(Position, Probe),
+    TurnProbeOn,
+    TurnProbeOff,
+    /// Extension: down and up again in step with the spindle (G33.1).
+    RigidTap(Position),
+    /// Extension: a NURBS.
+    NurbsFeed(Nurbs),
+    /// Extension: M52.
+    EnableAdaptiveFeed,
+    DisableAdaptiveFeed,
+    /// Extension: M53.
+    EnableFeedHold,
+    DisableFeedHold,
+    /// Extension: M62, M63 with the next move.
+    SetMotionOutputBit(u32),
+    ClearMotionOutputBit(u32),
+    /// Extension: M64, M65 at once.
+    SetAuxOutputBit(u32),
+    ClearAuxOutputBit(u32),
+    /// Extension: M67 with the next move, M68 at once.
+    SetMotionOutputValue(u32, f64),
+    SetAuxOutputValue(u32, f64),
+    /// Extension: M66: wait for an input.
+    WaitInput(Input),
+    /// Extension: text for the console, the log and its file.
+    Print(String),
+    Log(String),
+    LogOpen(String),
+    LogAppend(String),
+    LogClose,
     /// Extension: an M code that has no meaning of its own here; the PLC program gives it one. With its P and Q words.
     UserMCode {
         code: u32,
         p: Option<f64>,
         q: Option<f64>,
     },
+}
+
+/// G38.2 .. G38.5.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Probe {
+    /// Towards the contact; else away from it.
+    pub towards: bool,
+    /// No contact is an error.
+    pub must_trip: bool,
+}
+
+/// A row of the tool table, in millimetres and degrees.
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
+pub struct ToolEntry {
+    /// Index in the changer; 0 is the spindle.
+    pub index: u32,
+    /// T word.
+    pub tool: u32,
+    /// Pocket.
+    pub pocket: u32,
+    /// X Y Z A B C U V W.
+    pub offset: [f64; 9],
+    /// Diameter.
+    pub diameter: f64,
+    /// Front angle.
+    pub front: f64,
+    /// Back angle.
+    pub back: f64,
+    /// Orientation of a lathe tool, 0 to 9.
+    pub orientation: u32,
+}
+
+/// M66.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Input {
+    /// Number of the input.
+    pub number: u32,
+    /// Analog instead of digital.
+    pub analog: bool,
+    /// L word: 0 at once, 1 rise, 2 fall, 3 high, 4 low.
+    pub wait: u32,
+    /// Seconds.
+    pub timeout: f64,
+}
+
+/// A NURBS in the XY plane: control points with weights; knots are uniform and clamped at both ends.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Nurbs {
+    /// Degree + 1.
+    pub order: u32,
+    /// x, y, weight in program coordinates.
+    pub points: Vec<[f64; 3]>,
 }
 
 /// How a program ended.

@@ -7,10 +7,11 @@
 
 mod names;
 mod parse;
+pub mod rs274;
 
 pub use parse::{BadLine, Line, parse};
 
-use crate::canon::{Arc, Canon, MotionMode, Position, Step};
+use crate::canon::{Arc, Canon, MotionMode, Nurbs, Position, Step, ToolEntry};
 use names::{direction_name, plane_name, reference_name, units_name};
 
 /// The line for a command, without a line end.
@@ -46,6 +47,42 @@ fn parts(command: &Canon) -> (&'static str, String) {
         Canon::Comment(text) => ("COMMENT", quoted(text)),
         Canon::Message(text) => ("MESSAGE", quoted(text)),
         Canon::UserMCode { code, p, q } => ("USER_M_CODE", user(*code, *p, *q)),
+        Canon::SetXyRotation(degrees) => ("SET_XY_ROTATION", number(*degrees)),
+        Canon::SetG5xOffset(index, p) => ("SET_G5X_OFFSET", format!("{index}, {}", position(p))),
+        Canon::SetG92Offset(p) => ("SET_G92_OFFSET", position(p)),
+        Canon::UseToolLengthOffsets(p) => ("USE_TOOL_LENGTH_OFFSETS", position(p)),
+        Canon::SetFeedMode(per_rev) => ("SET_FEED_MODE", u8::from(*per_rev).to_string()),
+        Canon::SetSpindleMode(max) => ("SET_SPINDLE_MODE", number(max.unwrap_or(0.0))),
+        Canon::SetNaivecamTolerance(length) => ("SET_NAIVECAM_TOLERANCE", number(*length)),
+        Canon::StartChange => ("START_CHANGE", String::new()),
+        Canon::ChangeToolNumber(tool) => ("CHANGE_TOOL_NUMBER", tool.to_string()),
+        Canon::SetToolTableEntry(entry) => ("SET_TOOL_TABLE_ENTRY", tool_entry(entry)),
+        Canon::OrientSpindleMode(angle, mode) => ("ORIENT_SPINDLE_MODE", format!("{}, {mode}", number(*angle))),
+        Canon::WaitOrientComplete(seconds) => ("WAIT_ORIENT_COMPLETE", number(*seconds)),
+        Canon::StartSpeedFeedSync(pitch) => ("START_SPEED_FEED_SYNC", number(*pitch)),
+        Canon::StraightProbe(p, probe) => {
+            ("STRAIGHT_PROBE", format!("{}, {}, {}", position(p), u8::from(probe.towards), u8::from(probe.must_trip)))
+        }
+        Canon::TurnProbeOn => ("TURN_PROBE_ON", String::new()),
+        Canon::TurnProbeOff => ("TURN_PROBE_OFF", String::new()),
+        Canon::RigidTap(p) => ("RIGID_TAP", position(p)),
+        Canon::NurbsFeed(nurbs) => ("NURBS_FEED", nurbs_args(nurbs)),
+        Canon::EnableAdaptiveFeed => ("ENABLE_ADAPTIVE_FEED", String::new()),
+        Canon::DisableAdaptiveFeed => ("DISABLE_ADAPTIVE_FEED", String::new()),
+        Canon::EnableFeedHold => ("ENABLE_FEED_HOLD", String::new()),
+        Canon::DisableFeedHold => ("DISABLE_FEED_HOLD", String::new()),
+        Canon::SetMotionOutputBit(i) => ("SET_MOTION_OUTPUT_BIT", i.to_string()),
+        Canon::ClearMotionOutputBit(i) => ("CLEAR_MOTION_OUTPUT_BIT", i.to_string()),
+        Canon::SetAuxOutputBit(i) => ("SET_AUX_OUTPUT_BIT", i.to_string()),
+        Canon::ClearAuxOutputBit(i) => ("CLEAR_AUX_OUTPUT_BIT", i.to_string()),
+        Canon::SetMotionOutputValue(i, v) => ("SET_MOTION_OUTPUT_VALUE", format!("{i}, {}", number(*v))),
+        Canon::SetAuxOutputValue(i, v) => ("SET_AUX_OUTPUT_VALUE", format!("{i}, {}", number(*v))),
+        Canon::WaitInput(i) => ("WAIT_INPUT", format!("{}, {}, {}, {}", i.number, u8::from(i.analog), i.wait, number(i.timeout))),
+        Canon::Print(text) => ("PRINT", quoted(text)),
+        Canon::Log(text) => ("LOG", quoted(text)),
+        Canon::LogOpen(text) => ("LOGOPEN", quoted(text)),
+        Canon::LogAppend(text) => ("LOGAPPEND", quoted(text)),
+        Canon::LogClose => ("LOGCLOSE", String::new()),
         Canon::ProgramEnd(_) => ("PROGRAM_END", String::new()),
         Canon::InitCanon => ("INIT_CANON", String::new()),
         Canon::EndCanon => ("END_CANON", String::new()),
@@ -89,6 +126,17 @@ fn position(p: &Position) -> String {
 fn arc(a: &Arc) -> String {
     let plane = numbers(&[a.first_end, a.second_end, a.first_axis, a.second_axis]);
     format!("{plane}, {}, {}", a.rotation, numbers(&[a.axis_end_point, a.a, a.b, a.c]))
+}
+
+fn tool_entry(entry: &ToolEntry) -> String {
+    let head = format!("{}, {}, {}", entry.index, entry.tool, entry.pocket);
+    let tail = numbers(&[entry.diameter, entry.front, entry.back]);
+    format!("{head}, {}, {tail}, {}", numbers(&entry.offset), entry.orientation)
+}
+
+fn nurbs_args(nurbs: &Nurbs) -> String {
+    let points: Vec<f64> = nurbs.points.iter().flatten().copied().collect();
+    format!("{}, {}, {}", nurbs.points.len(), nurbs.order, numbers(&points))
 }
 
 fn mode_text(mode: MotionMode) -> String {

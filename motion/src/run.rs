@@ -61,7 +61,10 @@ pub struct RunReader {
     /// Machine position of the controlled point: mm, degrees.
     position: Point,
     origin: Point,
-    tool_length: f64,
+    /// Rotation of the program about Z: degrees, and its sine and cosine.
+    rotation: (f64, f64, f64),
+    /// Tool offsets of X, Y, Z in mm.
+    tool: [f64; 3],
     unit_mm: f64,
     plane: Plane,
     mode: MotionMode,
@@ -81,7 +84,8 @@ impl RunReader {
             work,
             position: start,
             origin: [0.0; AXES],
-            tool_length: 0.0,
+            rotation: (0.0, 0.0, 1.0),
+            tool: [0.0; 3],
             unit_mm: 1.0,
             plane: Plane::Xy,
             mode: MotionMode::ExactPath,
@@ -113,7 +117,12 @@ impl RunReader {
             Canon::ProgramEnd(end) => self.end(mark, *end, emit),
             Canon::EnableFeedOverride => self.action(mark, Action::FeedOverride(true), emit),
             Canon::DisableFeedOverride => self.action(mark, Action::FeedOverride(false), emit),
-            Canon::StartSpeedFeedSynch => Err(unsupported("motion in step with the spindle")),
+            Canon::StraightProbe(..) => Err(unsupported("probing (G38)")),
+            Canon::RigidTap(_) => Err(unsupported("rigid tapping (G33.1)")),
+            Canon::NurbsFeed(_) => Err(unsupported("a NURBS")),
+            Canon::WaitInput(_) => Err(unsupported("waiting for an input (M66)")),
+            Canon::EnableAdaptiveFeed => Err(unsupported("adaptive feed (M52)")),
+            Canon::StartSpeedFeedSynch | Canon::StartSpeedFeedSync(_) => Err(unsupported("motion in step with the spindle")),
             command if self.set_state(command)? => Ok(()),
             command => self.auxiliary(mark, command, emit),
         }
@@ -129,7 +138,14 @@ impl RunReader {
             Canon::SelectPlane(plane) => self.plane = *plane,
             Canon::UseLengthUnits(units) => self.unit_mm = mm_per_unit(*units),
             Canon::SetOriginOffsets(p) => self.origin = self.scaled(p),
-            Canon::UseToolLengthOffset(length) => self.tool_length = length * self.unit_mm,
+            Canon::UseToolLengthOffset(length) => self.tool = [0.0, 0.0, length * self.unit_mm],
+            Canon::UseToolLengthOffsets(p) => self.tool = [p.x, p.y, p.z].map(|v| v * self.unit_mm),
+            Canon::SetXyRotation(degrees) => {
+                let (sin, cos) = libm::sincos(degrees.to_radians());
+                self.rotation = (*degrees, sin, cos);
+            }
+            Canon::SetFeedMode(true) => return Err(unsupported("feed a revolution (G95)")),
+            Canon::SetSpindleMode(Some(_)) => return Err(unsupported("constant surface speed (G96)")),
             Canon::SetFeedRate(rate) => self.feed_mm_s = rate * self.unit_mm / 60.0,
             Canon::SetTraverseRate(rate) if *rate > 0.0 => self.traverse_mm_s = rate * self.unit_mm / 60.0,
             Canon::SetMotionControlMode(mode) => self.mode = *mode,
@@ -139,6 +155,24 @@ impl RunReader {
             Canon::InitCanon
             | Canon::EndCanon
             | Canon::SetTraverseRate(_)
+            | Canon::SetFeedMode(_)
+            | Canon::SetSpindleMode(_)
+            | Canon::SetNaivecamTolerance(_)
+            | Canon::SetG5xOffset(..)
+            | Canon::SetG92Offset(_)
+            | Canon::SetToolTableEntry(_)
+            | Canon::StartChange
+            | Canon::TurnProbeOn
+            | Canon::TurnProbeOff
+            | Canon::Print(_)
+            | Canon::Log(_)
+            | Canon::LogOpen(_)
+            | Canon::LogAppend(_)
+            | Canon::LogClose
+            | Canon::WaitOrientComplete(_)
+            | Canon::DisableAdaptiveFeed
+            | Canon::EnableFeedHold
+            | Canon::DisableFeedHold
             | Canon::SetFeedReference(_)
             | Canon::StopSpeedFeedSynch
             | Canon::Comment(_)
@@ -158,11 +192,24 @@ impl RunReader {
     /// Program to machine coordinates (CM-19, CM-26).
     fn machine(&self, p: &Position) -> Point {
         let mut point = self.scaled(p);
+        self.turn(&mut point, 0, 1);
         for (c, o) in point.iter_mut().zip(self.origin) {
             *c += o;
         }
-        point[2] += self.tool_length;
+        for (c, o) in point.iter_mut().zip(self.tool) {
+            *c += o;
+        }
         point
+    }
+
+    /// Turns coordinates `i` and `j`, which are X and Y, by the rotation of the program.
+    fn turn(&self, point: &mut [f64], i: usize, j: usize) {
+        let (degrees, sin, cos) = self.rotation;
+        if degrees != 0.0 {
+            let (x, y) = (point[i], point[j]);
+            point[i] = x * cos - y * sin;
+            point[j] = x * sin + y * cos;
+        }
     }
 
     fn straight(&mut self, mark: Mark, to: &Position, rapid: bool, emit: Emit) -> Result<(), RunError> {
@@ -176,15 +223,22 @@ impl RunReader {
             Plane::Yz => (1, 2, 0),
             Plane::Xz => (2, 0, 1),
         };
-        let shift = |i: usize, v: f64| v * self.unit_mm + self.origin[i] + if i == 2 { self.tool_length } else { 0.0 };
+        if self.rotation.0 != 0.0 && self.plane != Plane::Xy {
+            return Err(unsupported("an arc outside of XY in a rotated program"));
+        }
+        let place = |a: f64, b: f64, c: f64| {
+            let mut p = [0.0; 3];
+            (p[first], p[second], p[third]) = (a * self.unit_mm, b * self.unit_mm, c * self.unit_mm);
+            self.turn(&mut p, 0, 1);
+            std::array::from_fn::<f64, 3, _>(|i| p[i] + self.origin[i] + self.tool[i])
+        };
         let mut end = self.position;
-        end[first] = shift(first, arc.first_end);
-        end[second] = shift(second, arc.second_end);
-        end[third] = shift(third, arc.axis_end_point);
+        end[..3].copy_from_slice(&place(arc.first_end, arc.second_end, arc.axis_end_point));
         for (i, v) in [(3, arc.a), (4, arc.b), (5, arc.c)] {
             end[i] = v + self.origin[i];
         }
-        let centre = [shift(first, arc.first_axis), shift(second, arc.second_axis)];
+        let middle = place(arc.first_axis, arc.second_axis, 0.0);
+        let centre = [middle[first], middle[second]];
         check_radius(&self.position, &end, first, second, centre, arc.rotation)?;
         self.go(mark, Path::arc(self.position, end, first, second, centre, arc.rotation), false, emit)
     }
@@ -260,6 +314,13 @@ impl RunReader {
                 let words = [p.unwrap_or(0.0), q.unwrap_or(0.0)];
                 self.add_m(mark, u16::try_from(*code).unwrap_or(u16::MAX), words, emit);
             }
+            Canon::ChangeToolNumber(tool) => self.add_m(mark, 61, [0.0, f64::from(*tool)], emit),
+            Canon::SetMotionOutputBit(i) => self.add_m(mark, 62, [f64::from(*i), 0.0], emit),
+            Canon::ClearMotionOutputBit(i) => self.add_m(mark, 63, [f64::from(*i), 0.0], emit),
+            Canon::SetAuxOutputBit(i) => self.add_m(mark, 64, [f64::from(*i), 0.0], emit),
+            Canon::ClearAuxOutputBit(i) => self.add_m(mark, 65, [f64::from(*i), 0.0], emit),
+            Canon::SetMotionOutputValue(i, v) => self.add_m(mark, 67, [f64::from(*i), *v], emit),
+            Canon::SetAuxOutputValue(i, v) => self.add_m(mark, 68, [f64::from(*i), *v], emit),
             Canon::OrientSpindle(angle, _) => self.add_m(mark, 19, [*angle, 0.0], emit),
             other => {
                 if let Some(code) = m_code(other) {

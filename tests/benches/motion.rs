@@ -40,6 +40,26 @@ fn read_10000_blocks(bencher: Bencher) {
     bencher.counter(ItemsCount::new(BLOCKS)).bench(|| steps(&text).len());
 }
 
+fn drain(text: &str) -> usize {
+    Interpreter::new(SourceId(0), text, Options::default()).inspect(|s| assert!(s.is_ok())).count()
+}
+
+/// Arcs: centre and sweep are checked for each.
+#[divan::bench(sample_count = 20)]
+fn read_10000_arcs(bencher: Bencher) {
+    let text = "F100\n".to_owned() + &"G2 X10 Y0 I5 J0\nG3 X0 Y0 I-5 J0\n".repeat(BLOCKS / 2);
+    bencher.counter(ItemsCount::new(BLOCKS)).bench(|| drain(&text));
+}
+
+/// A loop with expressions and calls: 5 rows a turn and 3 in the subroutine.
+#[divan::bench(sample_count = 20)]
+fn run_80000_rows_of_a_macro(bencher: Bencher) {
+    let sub = "o100 sub\n#1 = [#1 * 2 + 1]\nG1 X[#1 * SIN[#2]] Y[#1 * COS[#2]]\no100 endsub\n";
+    let body = "o1 while [#10 LT 10000]\nG1 X[#10 / 1000]\no100 call [#10 / 100] [30]\n#10 = [#10 + 1]\no1 endwhile\nM2\n";
+    let text = format!("F100\n{sub}{body}");
+    bencher.counter(ItemsCount::new(8 * BLOCKS)).bench(|| drain(&text));
+}
+
 /// Look-ahead and interpolation at 1 ms, measured as `takt gcode --plan` does.
 #[divan::bench(sample_count = 10)]
 fn plan_10000_blocks(bencher: Bencher) {

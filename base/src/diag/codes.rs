@@ -181,6 +181,19 @@ codes! {
     N0013 NotOnGrid "the position is not a whole number of basic length units";
     N0014 NotInThisVersion "this part of the g-code language is not supported by this version";
     N0015 UnstableArc "a small change of this radius or end point moves the arc far" Warning;
+    N0016 BadExpression "this expression is not well formed";
+    N0017 BadParameter "this parameter can't be used here";
+    N0018 CalculationFault "the calculation has no result";
+    N0019 BadFlow "this O word does not fit here";
+    N0020 MissingSub "the subroutine is not found";
+    N0021 NestedTooDeeply "too many subroutines call each other";
+    N0022 EndlessProgram "the program runs in a circle and does nothing";
+    N0023 UnknownTool "the tool is not in the tool table";
+    N0024 BadTable "this row of a table can't be read";
+    N0025 CompensationFault "the tool can't follow the contour with cutter compensation";
+    N0026 SpindleStopped "the code needs a turning spindle";
+    N0027 NotInThisMode "the code is not allowed in the mode that is in force";
+    N0028 ProgramAborted "the program stops itself";
 
     // --- C project and image files ---
     C0001 BadProjectFile "the project file can't be used";

@@ -3,10 +3,13 @@
 use crate::Status;
 use crate::diagnostics;
 use crate::project::Problem;
+use crate::subroutines::{Subroutines, tables};
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use takt_base::{Diag, SourceId, Sources};
 use takt_motion::canon::Step;
-use takt_motion::ngc::{self, Interpreter, Options};
+use takt_motion::ngc::{self, HostRef, Interpreter, Options};
 use takt_motion::{draw, print};
 
 /// Print, check, plan or plot a part program
@@ -43,6 +46,15 @@ pub struct Args {
     /// Dialect; this version speaks ngc
     #[arg(long, default_value = "ngc", value_parser = ["ngc"])]
     dialect: String,
+    /// Tool table
+    #[arg(long, value_name = "FILE")]
+    tool_table: Option<PathBuf>,
+    /// Parameter file
+    #[arg(long, value_name = "FILE")]
+    params: Option<PathBuf>,
+    /// Folder with files of subroutines, beside that of the program; may stand several times
+    #[arg(long, value_name = "DIR")]
+    subs: Vec<PathBuf>,
     #[command(flatten)]
     plan_args: super::gcode_plan::PlanArgs,
 }
@@ -53,7 +65,8 @@ pub fn run(args: Args) -> Status {
 
 /// A part program that was read.
 pub struct PartProgram {
-    pub sources: Sources,
+    subroutines: Arc<Subroutines>,
+    sources: Sources,
     pub id: SourceId,
     pub options: Options,
 }
@@ -63,11 +76,26 @@ impl PartProgram {
         let mut sources = Sources::new();
         let id = sources.add_bytes(args.file.display().to_string(), crate::project::read(&args.file)?);
         let modes = sources.add("--modes", args.modes.clone());
-        let options = Options { skip_deleted: args.skip_deleted, ..Options::default() };
+        let tools = args.tool_table.as_deref().map(|path| tables::tools(path, &mut sources, 1.0)).transpose()?;
+        let parameters = args.params.as_deref().map(|path| tables::parameters(path, &mut sources)).transpose()?;
+        let folders = args.file.parent().map(Path::to_path_buf).into_iter().chain(args.subs.iter().cloned()).collect();
+        let subroutines = Arc::new(Subroutines::new(folders, sources.clone(), HashMap::new()));
+        let options = Options {
+            skip_deleted: args.skip_deleted,
+            tools,
+            parameters: parameters.unwrap_or_default().into(),
+            host: HostRef::new(subroutines.clone()),
+            ..Options::default()
+        };
         match options.with_modes(modes, &args.modes) {
-            Ok(options) => Ok(Self { sources, id, options }),
+            Ok(options) => Ok(Self { subroutines, sources, id, options }),
             Err(diag) => Err(Problem::Diags(vec![*diag], sources)),
         }
+    }
+
+    /// All files that were read, those of subroutines among them.
+    pub fn sources(&self) -> Sources {
+        self.subroutines.sources()
     }
 
     fn text(&self) -> &str {
@@ -77,7 +105,7 @@ impl PartProgram {
     /// All steps, or the first error.
     pub fn steps(&self) -> Result<Vec<Step>, Problem> {
         let steps: Result<Vec<_>, Box<Diag>> = Interpreter::new(self.id, self.text(), self.options.clone()).collect();
-        steps.map_err(|diag| Problem::Diags(vec![*diag], self.sources.clone()))
+        steps.map_err(|diag| Problem::Diags(vec![*diag], self.sources()))
     }
 }
 
@@ -101,7 +129,7 @@ fn execute(args: &Args) -> Result<Status, Problem> {
 /// True if there is no error.
 fn check(program: &PartProgram) -> bool {
     let diags = ngc::check(program.id, program.text(), program.options.clone());
-    diagnostics::print(&diags, &program.sources);
+    diagnostics::print(&diags, &program.sources());
     !diagnostics::any_error(&diags)
 }
 
@@ -118,7 +146,7 @@ fn print_canon(program: &PartProgram, numbered: bool) -> Result<(), Problem> {
             }
             Err(diag) => {
                 let _ = out.flush();
-                return Err(Problem::Diags(vec![*diag], program.sources.clone()));
+                return Err(Problem::Diags(vec![*diag], program.sources()));
             }
         }
     }

@@ -73,11 +73,12 @@ fn config(args: &PlanArgs) -> Result<PlanConfig, Problem> {
 }
 
 fn problem(program: &PartProgram, e: PlanError) -> Problem {
-    let text = program.sources.get(program.id);
+    let sources = program.sources();
+    let text = sources.get(program.id);
     let start = text.line_start(e.mark.line);
     let span = Span::new(program.id, start, start + text.line(e.mark.line).len());
     let diag = Diag::new(e.error.code, span, e.error.to_string());
-    Problem::Diags(vec![diag], program.sources.clone())
+    Problem::Diags(vec![diag], program.sources())
 }
 
 fn print_report(r: &PlanReport, format: &str) {

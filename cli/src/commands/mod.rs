@@ -7,6 +7,7 @@ pub mod explain;
 pub mod gcode;
 mod gcode_plan;
 pub mod new;
+pub mod rs274;
 pub mod run;
 pub mod sim;
 pub mod test;

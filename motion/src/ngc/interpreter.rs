@@ -5,38 +5,60 @@
 //! and closes the machine. The last command is always `PROGRAM_END`: from M2 or M30, or from the end of the text or a closing `%`.
 //! A comment does not count as a block; its commands carry the number of the block before.
 
-use super::block;
-use super::execute::{self, Outcome};
-use super::lines::{Lines, Piece};
+use super::code::Row;
+use super::execute::{self, Out, Then};
+use super::expr::run::Stack;
+use super::fault::Fault;
+use super::flow::files::Files;
+use super::flow::owords::After;
+use super::flow::{Flow, Next};
 use super::modal::Modal;
 use super::options::Options;
+use super::request::Request;
+use super::state::State;
 use crate::canon::{Canon, FeedReference, ProgramEnd, Step};
-use std::collections::VecDeque;
+use std::collections::{HashSet, VecDeque};
 use std::sync::Arc;
 use takt_base::{Code, Diag, Severity, SourceId, Span};
 
 /// Reads a part program. Owns its text, so it can be sent to a background thread.
 #[derive(Clone, Debug)]
 pub struct Interpreter {
-    source: SourceId,
-    text: Arc<str>,
-    options: Options,
-    lines: Lines,
-    modal: Modal,
+    flow: Flow,
+    state: State,
+    request: Request,
+    stack: Stack,
     queue: VecDeque<Step>,
+    diags: Vec<Diag>,
+    failed: Option<Box<Diag>>,
     block: u32,
+    /// Rows since the last command.
+    silent: u32,
     opened: bool,
+    percent: bool,
     ended: bool,
+    /// M99 in the main program ends it: errors are looked for, or one run is asked for.
+    once: bool,
 }
 
-/// All errors and warnings of a program, in the order of the text up to M2, M30 or a closing `%`. Goes on behind a wrong block with the
-/// state that it would have left.
+/// Rows that a check executes; a longer program is checked no further.
+const CHECKED_ROWS: u64 = 20_000_000;
+/// Diagnostics that a check gives.
+const DIAGS_MAX: usize = 1_000_000;
+
+/// All errors and warnings of a program, in the order in which it runs up to M2, M30 or a closing `%`, each once. Goes on behind a wrong
+/// block with the state that it would have left. Rows that are not executed are read too.
 pub fn check(source: SourceId, text: impl Into<Arc<str>>, options: Options) -> Vec<Diag> {
     let mut interpreter = Interpreter::new(source, text, options);
-    let mut diags = Vec::new();
-    while !interpreter.ended {
+    interpreter.once = true;
+    interpreter.flow.thorough = true;
+    let (mut diags, mut seen, mut rows) = (Vec::new(), HashSet::new(), 0_u64);
+    while !interpreter.ended && rows < CHECKED_ROWS && diags.len() < DIAGS_MAX {
         interpreter.queue.clear();
-        diags.extend(interpreter.advance());
+        interpreter.advance();
+        rows += 1;
+        interpreter.take_found();
+        diags.extend(interpreter.diags.drain(..).filter(|d| seen.insert((d.span, d.code))));
     }
     diags
 }
@@ -44,96 +66,257 @@ pub fn check(source: SourceId, text: impl Into<Arc<str>>, options: Options) -> V
 impl Interpreter {
     /// At the start of `text`, which is file `source` of the diagnostics.
     pub fn new(source: SourceId, text: impl Into<Arc<str>>, options: Options) -> Self {
-        let text = text.into();
-        let lines = Lines::new(&text, options.style);
-        let modal = Modal::new(&options);
-        let queue = prologue(&modal, &options).map(|command| Step { block: 0, line: 0, n: None, command }).into();
-        Interpreter { source, text, options, lines, modal, queue, block: 0, opened: false, ended: false }
+        let options = Arc::new(options);
+        let flow = Flow::new(Files::new(source, text.into(), options.style));
+        let state = State::new(options.clone());
+        let queue = prologue(&state, &options).into_iter().map(|command| Step { block: 0, line: 0, n: None, command }).collect();
+        Interpreter {
+            flow,
+            state,
+            request: Request::default(),
+            stack: Stack::new(),
+            queue,
+            diags: Vec::new(),
+            failed: None,
+            block: 0,
+            silent: 0,
+            opened: false,
+            percent: false,
+            ended: false,
+            once: options.drop_in,
+        }
     }
 
     /// The modal state behind the last block that was read.
     pub fn modal(&self) -> &Modal {
-        &self.modal
+        &self.state.modal
     }
 
-    /// Reads one piece of the text: its commands go to the queue, its diagnostics are returned.
-    fn advance(&mut self) -> Vec<Diag> {
-        let Some(piece) = self.lines.next(&self.text) else {
-            self.finish();
-            return Vec::new();
-        };
-        let text = self.text.clone();
-        let text = &text[piece.range.clone()];
-        if text.trim_start_matches([' ', '\t']).starts_with('%') {
-            return self.percent(text, &piece).into_iter().collect();
-        }
-        self.opened = true;
-        match block::read(self.source, piece.range.start, piece.line, text) {
-            Ok(block) => self.run(&block),
-            Err(diag) => {
+    /// Everything that the program can read or change.
+    pub fn state(&self) -> &State {
+        &self.state
+    }
+
+    /// Goes on behind an error with the next row (`rs274 -n 0`).
+    pub fn go_on(&mut self) {
+        self.ended = false;
+    }
+
+    /// Reads one row: its commands go to the queue, what is wrong to `diags`.
+    fn advance(&mut self) {
+        match self.flow.next_row() {
+            Next::Row(row) => self.row(&row),
+            Next::Percent(start, end) => self.percent(start, end),
+            Next::Wrong(fault, line) => {
+                self.opened = true;
+                self.state.line = line;
                 self.block = self.block.saturating_add(1);
-                vec![diag]
+                self.fail(fault);
+            }
+            Next::End => self.end_of_text(),
+        }
+    }
+
+    fn fail(&mut self, fault: Fault) {
+        self.diags.push(fault.diag(self.flow.files.source()));
+    }
+
+    fn row(&mut self, row: &Row) {
+        self.opened = true;
+        if row.deleted && self.state.options.skip_deleted {
+            return;
+        }
+        self.state.line = row.line;
+        let before = self.queue.len();
+        if let Some(word) = &row.oword {
+            self.comments(row);
+            match self.flow.obey(word, &mut self.state, &mut self.stack) {
+                Ok(After::Returned) => self.returned(row),
+                Ok(After::Next) => {}
+                Err(fault) => self.fail(fault),
+            }
+        } else {
+            self.block(row);
+        }
+        self.count_silence(row, before);
+    }
+
+    /// An endless loop that does nothing must not hang whoever waits for a command.
+    fn count_silence(&mut self, row: &Row, before: usize) {
+        if self.queue.len() != before {
+            self.silent = 0;
+            return;
+        }
+        self.silent += 1;
+        if self.silent > self.state.options.silent_rows_max {
+            let help = "check the condition that ends the loop";
+            self.fail(Fault::at(Code::EndlessProgram, row.place.0, row.place.1, "no command for a very long time", help));
+            self.ended = true;
+        }
+    }
+
+    fn comments(&mut self, row: &Row) {
+        if row.comments.is_empty() {
+            return;
+        }
+        let quiet = Row { words: Default::default(), settings: Default::default(), ..*row };
+        self.block(&quiet);
+    }
+
+    fn block(&mut self, row: &Row) {
+        if row.n.is_some() || !row.words.is_empty() || !row.settings.is_empty() {
+            self.block = self.block.saturating_add(1);
+        }
+        let (source, mark) = (self.flow.files.source(), self.queue.len());
+        let diags_before = self.diags.len();
+        self.request.fill(row, source, &self.flow.code, &mut self.state, &mut self.stack, &mut self.diags);
+        if self.state.options.drop_in && self.diags.len() > diags_before && self.failed_now(diags_before) {
+            return;
+        }
+        let mut out = Out { queue: &mut self.queue, diags: &mut self.diags, block: self.block, line: row.line, n: row.n };
+        let then = execute::execute(&self.request, row, self.flow.files.text_ref(), &self.flow.code, &mut self.state, &mut out);
+        if self.diags.len() > diags_before && self.failed_now(diags_before) {
+            if !self.state.options.drop_in {
+                self.queue.truncate(mark);
+            }
+            self.state.comp.reset();
+            self.ended |= then == Then::End && !self.state.options.drop_in;
+            return;
+        }
+        self.then(then, row);
+    }
+
+    fn failed_now(&self, before: usize) -> bool {
+        self.diags[before..].iter().any(|d| d.severity == Severity::Error)
+    }
+
+    fn then(&mut self, then: Then, row: &Row) {
+        match then {
+            Then::Next => {}
+            Then::End => {
+                self.ended = true;
+                self.state.params.leave_all();
+            }
+            Then::Call(number, times) => {
+                if let Err(fault) = self.flow.call_program(number, times, row.place, &mut self.state) {
+                    self.fail(fault);
+                }
+            }
+            Then::Return => {
+                let depth = self.flow.depth();
+                if !self.flow.leave(&mut self.state) {
+                    self.again();
+                } else if self.flow.depth() < depth {
+                    self.returned(row);
+                }
             }
         }
     }
 
-    fn run(&mut self, block: &block::Block) -> Vec<Diag> {
-        if block.deleted && self.options.skip_deleted {
-            return Vec::new();
+    /// M99 in the main program starts it anew.
+    fn again(&mut self) {
+        if self.state.options.drop_in {
+            self.ended = true;
+            let line = self.state.line;
+            let mut out = Out { queue: &mut self.queue, diags: &mut self.diags, block: self.block, line, n: None };
+            execute::epilogue(&mut self.state, &mut out, ProgramEnd::M2);
+        } else if self.once {
+            self.finish();
+        } else {
+            self.flow.restart();
         }
-        if block.n.is_some() || !block.words.is_empty() {
-            self.block = self.block.saturating_add(1);
-        }
-        let outcome = execute::execute(block, &mut self.modal, &self.options);
-        self.ended = outcome.end;
-        if !outcome.has_errors() { self.accept(block, outcome) } else { outcome.diags }
     }
 
-    fn accept(&mut self, block: &block::Block, outcome: Outcome) -> Vec<Diag> {
-        let number = self.block;
-        let step = |command| Step { block: number, line: block.line, n: block.n, command };
-        self.queue.extend(outcome.commands.into_iter().map(step));
-        outcome.diags
+    /// A subroutine has ended: modes that it saved for that come back.
+    fn returned(&mut self, row: &Row) {
+        if let Some(Some(saved)) = self.state.saved.pop()
+            && saved.automatic
+        {
+            let mut out = Out { queue: &mut self.queue, diags: &mut self.diags, block: self.block, line: row.line, n: row.n };
+            execute::restore(&mut self.state, &self.request, &mut out, &saved.modal);
+        }
+        if self.state.saved.is_empty() {
+            self.state.saved.push(None);
+        }
     }
 
     /// A line with `%`: before the first block it opens the program, later it ends it.
-    fn percent(&mut self, text: &str, piece: &Piece) -> Option<Diag> {
-        if text.trim_matches([' ', '\t']) != "%" {
-            let span = Span::new(self.source, piece.range.start, piece.range.end);
-            return Some(Diag::new(Code::BadCharacter, span, "text beside `%`").help("put `%` on a line of its own"));
+    fn percent(&mut self, start: usize, end: usize) {
+        if self.flow.files.text_ref()[start..end].trim_matches([' ', '\t']) != "%" {
+            let span = Span::new(self.flow.files.source(), start, end);
+            let diag = Diag::new(Code::BadCharacter, span, "text beside `%`").help("put `%` on a line of its own");
+            self.diags.push(diag);
+            return;
+        }
+        if self.opened && self.state.options.drop_in && !self.percent {
+            let span = Span::new(self.flow.files.source(), start, end);
+            let help = "`%` ends a program only if one stands before it";
+            self.diags.push(Diag::new(Code::BadCharacter, span, "`%` inside of the program").help(help));
+            return;
         }
         if self.opened {
             self.finish();
         }
+        self.percent = true;
         self.opened = true;
-        None
+    }
+
+    fn end_of_text(&mut self) {
+        if self.flow.depth() > 0 || self.flow.block_is_open() {
+            self.ended = true;
+            let at = self.flow.files.text_ref().len();
+            let span = Span::new(self.flow.files.source(), at.saturating_sub(1), at);
+            let help = "end it with endsub, endif, endwhile, endrepeat or M99";
+            self.diags.push(Diag::new(Code::BadFlow, span, "the file ends inside of a subroutine or block").help(help));
+            return;
+        }
+        if self.state.options.drop_in {
+            self.ended = true;
+            let at = self.flow.files.text_ref().len();
+            let span = Span::new(self.flow.files.source(), at.saturating_sub(1), at);
+            let diag = Diag::new(Code::MissingWord, span, "the file ends without M2, M30 or `%`");
+            self.diags.push(diag.help("write M2 in the last row"));
+            return;
+        }
+        self.finish();
     }
 
     fn finish(&mut self) {
         self.ended = true;
-        let line = self.lines.line();
+        let line = self.flow.files.lines().line();
+        let mut out = Out { queue: &mut self.queue, diags: &mut self.diags, block: self.block, line, n: None };
+        execute::release(&mut self.state, &mut out);
         self.queue.push_back(Step { block: self.block, line, n: None, command: Canon::ProgramEnd(ProgramEnd::EndOfFile) });
+    }
+
+    /// Errors of rows that are not executed.
+    fn take_found(&mut self) {
+        let source = self.flow.files.source();
+        let found = std::mem::take(&mut self.flow.found);
+        self.diags.extend(found.into_iter().map(|(_, fault)| fault.diag(source)));
     }
 }
 
 impl Iterator for Interpreter {
     type Item = Result<Step, Box<Diag>>;
 
-    /// The next command, or the error of the next block: then nothing of that block has been given out, and nothing follows.
-    /// Warnings are left to [`check`].
+    /// The next command, or the error of the next block: then nothing of that block has been given out (in the drop-in form: what stands
+    /// before the error), and nothing follows. Warnings are left to [`check`].
     fn next(&mut self) -> Option<Self::Item> {
         loop {
             if let Some(step) = self.queue.pop_front() {
                 return Some(Ok(step));
             }
+            if let Some(diag) = self.failed.take() {
+                return Some(Err(diag));
+            }
             if self.ended {
                 return None;
             }
-            let error = self.advance().into_iter().find(|d| d.severity == Severity::Error);
-            if let Some(diag) = error {
-                self.ended = true;
-                self.queue.clear();
-                return Some(Err(Box::new(diag)));
+            self.advance();
+            if !self.diags.is_empty() {
+                self.failed = self.diags.drain(..).find(|d| d.severity == Severity::Error).map(Box::new);
+                self.ended |= self.failed.is_some();
             }
         }
     }
@@ -141,14 +324,28 @@ impl Iterator for Interpreter {
 
 impl std::iter::FusedIterator for Interpreter {}
 
-fn prologue(modal: &Modal, options: &Options) -> [Canon; 5] {
-    [
+fn prologue(state: &State, options: &Options) -> Vec<Canon> {
+    let modal = &state.modal;
+    if options.drop_in {
+        return vec![
+            Canon::UseLengthUnits(modal.units),
+            Canon::SetG5xOffset(modal.work_offset as u32 + 1, super::modal::scaled(modal.offsets.work, 1.0 / state.unit())),
+            Canon::SetG92Offset(super::modal::scaled(modal.offsets.local, 1.0 / state.unit())),
+            Canon::SetXyRotation(modal.offsets.rotation),
+            Canon::SetFeedReference(FeedReference::Xyz),
+        ];
+    }
+    let mut all = vec![
         Canon::UseLengthUnits(modal.units),
-        execute::origin(modal, options),
+        execute::origin(modal),
         Canon::SetFeedReference(FeedReference::Xyz),
         Canon::SelectPlane(modal.plane),
         Canon::SetMotionControlMode(modal.control),
-    ]
+    ];
+    if modal.offsets.rotation != 0.0 {
+        all.push(Canon::SetXyRotation(modal.offsets.rotation));
+    }
+    all
 }
 
 #[cfg(test)]

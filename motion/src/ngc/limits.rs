@@ -1,7 +1,7 @@
 //! Travel limits and the grid of basic length units, checked before a block leaves the interpreter (R1-103, PC-20).
 
 use super::arc::Sweep;
-use super::modal::{Modal, from_plane, mm_per_unit, plus, scaled};
+use super::modal::{Modal, from_plane};
 use super::options::Options;
 use crate::canon::{Canon, Position};
 use takt_base::units::Mm;
@@ -9,19 +9,24 @@ use takt_base::{Code, Diag, Span};
 
 /// What is wrong with the move `command` at `at`. `modal` is the state at the start of the move.
 pub fn check(command: &Canon, at: Span, modal: &Modal, options: &Options) -> Vec<Diag> {
-    let machine = |p: Position| plus(scaled(p, mm_per_unit(modal.units)), options.work_offsets[modal.work_offset]);
-    let travel = options.travel.and_then(|travel| {
-        let outside = |p| outside(p, travel.min, travel.max);
-        farthest(command, modal).into_iter().map(machine).find_map(outside).map(|o| o.diag(at))
-    });
+    let machine = |p: Position| modal.machine(p);
     let grid = options.grid.and_then(|blu| given(command, modal).into_iter().map(machine).find_map(|p| off_grid(p, blu, at)));
-    travel.into_iter().chain(grid).collect()
+    check_travel(command, at, modal, options).into_iter().chain(grid).collect()
+}
+
+/// The same for the travel alone.
+pub fn check_travel(command: &Canon, at: Span, modal: &Modal, options: &Options) -> Option<Diag> {
+    let travel = options.travel?;
+    let outside = |p| outside(p, travel.min, travel.max);
+    farthest(command, modal).into_iter().map(|p| modal.machine(p)).find_map(outside).map(|o| o.diag(at))
 }
 
 /// The places of a move that can be farthest out.
 fn farthest(command: &Canon, modal: &Modal) -> Vec<Position> {
     match command {
-        Canon::StraightTraverse(end) | Canon::StraightFeed(end) => vec![*end],
+        Canon::StraightTraverse(end) | Canon::StraightFeed(end) | Canon::StraightProbe(end, _) | Canon::RigidTap(end) => {
+            vec![*end]
+        }
         Canon::ArcFeed(arc) => Sweep::new(modal.plane, modal.position, arc).map_or_else(Vec::new, |s| s.extremes()[1..].to_vec()),
         _ => Vec::new(),
     }
@@ -30,7 +35,9 @@ fn farthest(command: &Canon, modal: &Modal) -> Vec<Position> {
 /// The places that a move names: its end, and the centre of an arc.
 fn given(command: &Canon, modal: &Modal) -> Vec<Position> {
     match command {
-        Canon::StraightTraverse(end) | Canon::StraightFeed(end) => vec![*end],
+        Canon::StraightTraverse(end) | Canon::StraightFeed(end) | Canon::StraightProbe(end, _) | Canon::RigidTap(end) => {
+            vec![*end]
+        }
         Canon::ArcFeed(arc) => {
             let place = |first, second| from_plane([first, second, arc.axis_end_point], modal.plane, modal.position);
             vec![place(arc.first_end, arc.second_end), place(arc.first_axis, arc.second_axis)]

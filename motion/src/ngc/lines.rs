@@ -27,15 +27,29 @@ pub struct Piece {
     pub line: u32,
 }
 
-/// Cuts a text; the place, so that the text can be owned elsewhere.
-#[derive(Clone, Debug)]
-pub struct Lines {
-    semicolon: bool,
+/// A place in a text, so that one can come back to it.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub struct Place {
     /// Rest of the present line.
-    rest: Range<usize>,
+    rest: (usize, usize),
     /// Where the next line starts.
     next: usize,
     line: u32,
+}
+
+impl Place {
+    /// A number that no other place of the text has.
+    pub fn key(self) -> u64 {
+        if self.rest.0 < self.rest.1 { self.rest.0 as u64 } else { self.next as u64 }
+    }
+}
+
+/// Cuts a text; the place, so that the text can be owned elsewhere.
+#[derive(Clone, Copy, Debug)]
+pub struct Lines {
+    semicolon: bool,
+    /// Where the next piece starts.
+    pub place: Place,
 }
 
 impl Lines {
@@ -46,16 +60,16 @@ impl Lines {
             Style::Semicolon => true,
             Style::Auto => ends_with_semicolons(text),
         };
-        Lines { semicolon, rest: 0..0, next: 0, line: 0 }
+        Lines { semicolon, place: Place::default() }
     }
 
     /// The next piece that is not blank. `text` is always the one given to [`Lines::new`].
     pub fn next(&mut self, text: &str) -> Option<Piece> {
         loop {
-            while !self.rest.is_empty() {
+            while self.place.rest.0 < self.place.rest.1 {
                 let piece = self.cut(text);
                 if !is_blank(&text[piece.clone()]) {
-                    return Some(Piece { range: piece, line: self.line });
+                    return Some(Piece { range: piece, line: self.place.line });
                 }
             }
             self.advance(text)?;
@@ -64,29 +78,30 @@ impl Lines {
 
     /// The line that was read last, from 1.
     pub fn line(&self) -> u32 {
-        self.line
+        self.place.line
     }
 
     fn advance(&mut self, text: &str) -> Option<()> {
-        if self.next >= text.len() {
+        let place = &mut self.place;
+        if place.next >= text.len() {
             return None;
         }
-        let (line, next) = line_at(text, self.next);
-        self.rest = line;
-        self.next = next;
-        self.line = self.line.saturating_add(1);
+        let (line, next) = line_at(text, place.next);
+        place.rest = (line.start, line.end);
+        place.next = next;
+        place.line = place.line.saturating_add(1);
         Some(())
     }
 
     fn cut(&mut self, text: &str) -> Range<usize> {
-        let Range { start, end } = self.rest.clone();
+        let (start, end) = self.place.rest;
         match self.semicolon.then(|| terminator(&text[start..end])).flatten() {
             Some(at) => {
-                self.rest = start + at + 1..end;
+                self.place.rest = (start + at + 1, end);
                 start..start + at
             }
             None => {
-                self.rest = end..end;
+                self.place.rest = (end, end);
                 start..end
             }
         }
@@ -96,7 +111,7 @@ impl Lines {
 /// The line that starts at `start`, without its end (LF, CRLF or a lone CR), and where the next one starts.
 fn line_at(text: &str, start: usize) -> (Range<usize>, usize) {
     let bytes = text.as_bytes();
-    match bytes[start..].iter().position(|b| matches!(b, b'\n' | b'\r')) {
+    match bytes[start..].iter().position(|&b| b <= b'\r' && (b == b'\n' || b == b'\r')) {
         None => (start..text.len(), text.len()),
         Some(n) => {
             let end = start + n;

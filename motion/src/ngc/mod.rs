@@ -1,22 +1,34 @@
 //! Part programs in RS274/NGC: text to canonical commands (PC-02, PC-05, R1-32..R1-103).
 //!
-//! One pass, block by block: `lines` cuts the text into blocks, [`block`] reads words and comments, `request` sorts the words by
-//! modal group and checks that each is used, `execute` runs them in the order of RS274/NGC against the [`modal`] state, and
-//! [`interpreter`] hands out the commands. Runs: background.
+//! Row by row: `lines` cuts the text, [`reader`] compiles a row into [`code`], [`flow`] follows O words and calls, [`request`] computes
+//! the words and sorts them by modal group, [`execute`] runs them in the order of RS274/NGC against [`state`], and [`interpreter`]
+//! hands out the commands. Rows of loops and subroutines are compiled once. Runs: background.
 
 pub mod arc;
-pub mod block;
-mod execute;
+pub mod code;
+pub mod comp;
+pub mod cycle;
+pub mod execute;
+pub mod expr;
+pub mod fault;
+pub mod flow;
+pub mod host;
 pub mod interpreter;
 mod limits;
 pub mod lines;
 pub mod modal;
-mod motion;
+pub mod motion;
 mod number;
 pub mod options;
-mod request;
+pub mod oword;
+pub mod param;
+pub mod reader;
+pub mod request;
+pub mod state;
+pub mod tool;
 pub mod word;
 
+pub use host::{Host, HostRef};
 pub use interpreter::{Interpreter, check};
 pub use lines::Style;
 pub use modal::{Distance, Modal, Motion};

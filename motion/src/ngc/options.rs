@@ -1,10 +1,13 @@
 //! What a control or a dialect sets before the first block.
 
-use super::block::{self, Word};
+use super::code::{Code as Arena, Word};
+use super::host::HostRef;
 use super::lines::Style;
-use super::modal::{Distance, Motion};
+use super::modal::{Distance, FeedMode, Motion};
+use super::reader::Reader;
 use super::word::{Action, Control};
-use crate::canon::{MotionMode, Plane, Position, Units};
+use crate::canon::{MotionMode, Plane, Position, ToolEntry, Units};
+use std::sync::Arc;
 use takt_base::units::{Mm, MmPerMin};
 use takt_base::{Code, Diag, SourceId, Span};
 
@@ -48,6 +51,21 @@ pub struct Options {
     /// Basic length unit that all places of a program must be whole numbers of (PC-20): what a reference-pulse control needs;
     /// `None`: not checked here.
     pub grid: Option<Mm>,
+    /// Behaves and lists as LinuxCNC's stand-alone interpreter also where this one would differ: offsets in parts, what stands
+    /// before an error, prologue and epilogue.
+    pub drop_in: bool,
+    /// Unit of lengths in the parameters from 5161 on.
+    pub table_units: Units,
+    /// Tool table; without one every tool is allowed and has no offsets.
+    pub tools: Option<Arc<[ToolEntry]>>,
+    /// Parameters from a file: number and value.
+    pub parameters: Arc<[(u16, f64)]>,
+    /// Files of subroutines, variables of the PLC program.
+    pub host: HostRef,
+    /// Calls that may be in progress at one time.
+    pub calls_max: usize,
+    /// Rows that may run without a command coming out: more is an endless loop.
+    pub silent_rows_max: u32,
 }
 
 impl Default for Options {
@@ -68,6 +86,13 @@ impl Default for Options {
             feed_max: None,
             travel: None,
             grid: None,
+            drop_in: false,
+            table_units: Units::Mm,
+            tools: None,
+            parameters: Arc::new([]),
+            host: HostRef::default(),
+            calls_max: 100,
+            silent_rows_max: 1_000_000,
         }
     }
 }
@@ -78,23 +103,25 @@ impl Options {
     /// # Errors
     /// A word that sets no mode, or a text that is no block; the place is in `text`, as file `source`.
     pub fn with_modes(mut self, source: SourceId, text: &str) -> Result<Self, Box<Diag>> {
-        let block = block::read(source, 0, 1, text).map_err(Box::new)?;
-        for word in &block.words {
-            self.set_mode(word).ok_or_else(|| Box::new(no_mode(word.span)))?;
+        let mut arena = Arena::default();
+        let row = Reader::default().read(text, 0, 1, &mut arena).map_err(|fault| Box::new(fault.diag(source)))?;
+        for word in &arena.words[row.words.range()] {
+            let (start, end) = word.place;
+            self.set_mode(word).ok_or_else(|| Box::new(no_mode(Span { source, start, end })))?;
         }
         Ok(self)
     }
 
     fn set_mode(&mut self, word: &Word) -> Option<()> {
-        match word.action()? {
+        match word.action? {
             Action::Motion(motion) => self.motion = motion,
             Action::Plane(plane) => self.plane = plane,
             Action::Units(units) => self.units = units,
             Action::Distance(distance) => self.distance = distance,
             Action::ArcDistance(distance) => self.arc_distance = distance,
-            Action::WorkOffset(index) => self.work_offset = index,
+            Action::WorkOffset(index) if index < 6 => self.work_offset = index,
             Action::Control(control) => self.control = control.mode(0.0),
-            Action::FeedPerMinute => {}
+            Action::Feed(FeedMode::PerMinute) => {}
             _ => return None,
         }
         Some(())

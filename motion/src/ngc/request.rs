@@ -1,19 +1,58 @@
 //! What a block asks for: its codes by modal group and its other words by letter, with the rules that need no geometry:
 //! one code a group (R1-37), one word a letter, every word used, every code complete, values in range.
 
-use super::block::{Block, Word};
-use super::modal::{Modal, Motion};
+use super::code::{Code as Arena, Row, Target};
+use super::expr::run::{self, Stack};
+use super::fault::Fault;
+use super::modal::{Motion, Retract};
+use super::param::{self, Kind, Name};
+use super::state::State;
 use super::word::{self, Action, Control, GROUPS, Group};
-use takt_base::{Code, Diag, Span};
+use takt_base::{Code, Diag, SourceId, Span};
 
-/// The words of a block, sorted.
+/// A letter and its number.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Word {
+    /// Upper case.
+    pub letter: char,
+    /// Computed.
+    pub value: f64,
+    /// Letter and number.
+    pub span: Span,
+}
+
+impl Word {
+    /// The value, if it is a whole number that is not negative.
+    pub fn whole(&self) -> Option<u32> {
+        word::whole(self.value)
+    }
+}
+
+/// Letters, then `@`, `^`, `$`.
+const LETTERS: usize = 29;
+const NOWHERE: Span = Span { source: SourceId(0), start: 0, end: 0 };
+
+/// The words of a block, sorted. Kept from block to block.
+#[derive(Clone, Debug)]
 pub struct Request {
     /// The whole block.
     pub span: Span,
-    codes: [Option<(Action, Span)>; GROUPS],
-    letters: [Option<Word>; 26],
+    /// N word.
+    pub n: Option<u32>,
     /// The motion that this block makes: its own code, or the one in force.
     pub motion: Option<Motion>,
+    codes: [(Action, Span); GROUPS],
+    has_code: u32,
+    letters: [Word; LETTERS],
+    has_letter: u32,
+    settings: Vec<(Place, f64)>,
+}
+
+/// A parameter that is set.
+#[derive(Clone, Copy, PartialEq, Debug)]
+enum Place {
+    Numbered(u16),
+    Named(Name),
 }
 
 /// Axis letters in the order of a position.
@@ -21,35 +60,157 @@ pub const AXES: [char; 6] = ['X', 'Y', 'Z', 'A', 'B', 'C'];
 /// Letters that tell where the centre of an arc is.
 pub const CENTRE: [char; 4] = ['I', 'J', 'K', 'R'];
 
+impl Default for Request {
+    fn default() -> Self {
+        Request {
+            span: NOWHERE,
+            n: None,
+            motion: None,
+            codes: [(Action::Dwell, NOWHERE); GROUPS],
+            has_code: 0,
+            letters: [Word { letter: ' ', value: 0.0, span: NOWHERE }; LETTERS],
+            has_letter: 0,
+            settings: Vec::new(),
+        }
+    }
+}
+
 impl Request {
-    /// Sorts the words of `block`; what is wrong goes to `out`, and the rest is kept. With an unknown code there is no motion, and
-    /// no word counts as unused: nobody knows what it would have been for.
-    pub fn new(block: &Block, modal: &Modal, out: &mut Vec<Diag>) -> Self {
-        let mut request = Request { span: block.span, codes: [None; GROUPS], letters: [None; 26], motion: None };
-        for word in &block.words {
+    /// Computes and sorts the words of `row`; what is wrong goes to `out`, and the rest is kept. With an unknown code there is no
+    /// motion, and no word counts as unused: nobody knows what it would have been for.
+    pub fn fill(
+        &mut self,
+        row: &Row,
+        source: SourceId,
+        arena: &Arena,
+        state: &mut State,
+        stack: &mut Stack,
+        out: &mut Vec<Diag>,
+    ) {
+        self.span = Span { source, start: row.place.0, end: row.place.1 };
+        self.n = row.n;
+        self.motion = None;
+        (self.has_code, self.has_letter) = (0, 0);
+        let Some(known) = self.words(row, source, arena, state, stack, out) else { return };
+        if !row.settings.is_empty() && self.settings(row, source, arena, state, stack, out).is_none() {
+            return;
+        }
+        self.motion = self.find_motion(state).filter(|_| known);
+        let before = out.len();
+        self.check_values(state, out);
+        if known && out.len() == before && !self.is_plain_move() {
+            self.check_used(row, source, arena, out);
+        }
+    }
+
+    /// All words; `None` if one has no value, else whether all codes are known.
+    fn words(
+        &mut self,
+        row: &Row,
+        source: SourceId,
+        arena: &Arena,
+        state: &State,
+        stack: &mut Stack,
+        out: &mut Vec<Diag>,
+    ) -> Option<bool> {
+        let mut known = true;
+        for word in &arena.words[row.words.range()] {
+            let span = Span { source, start: word.place.0, end: word.place.1 };
+            let value = match run::value(word.value, arena, state, stack) {
+                Ok(value) if value.abs() <= super::number::MAX => value,
+                Ok(_) => {
+                    out.push(Diag::new(Code::BadValue, span, "above 1000000000000").help("check the expression"));
+                    return None;
+                }
+                Err(fault) => {
+                    out.push(fault.diag(source));
+                    return None;
+                }
+            };
             match word.letter {
-                'G' | 'M' => request.add_code(word, out),
-                _ => request.add_letter(word, out),
+                'G' | 'M' => known &= self.add_code(word.letter, value, word.action, span, state, out),
+                letter => self.add_letter(Word { letter, value, span }, out),
             }
         }
-        let known = block.words.iter().all(|w| !matches!(w.letter, 'G' | 'M') || w.action().is_some());
-        request.motion = request.find_motion(modal).filter(|_| known);
-        let before = out.len();
-        request.check_values(out);
-        if known && out.len() == before {
-            request.check_used(block, out);
+        Some(known)
+    }
+
+    /// Computes what the settings set, then sets it: all values of a row count before (LinuxCNC "Parameters").
+    fn settings(
+        &mut self,
+        row: &Row,
+        source: SourceId,
+        arena: &Arena,
+        state: &mut State,
+        stack: &mut Stack,
+        out: &mut Vec<Diag>,
+    ) -> Option<()> {
+        self.settings.clear();
+        for setting in &arena.settings[row.settings.range()] {
+            let place = match setting.target {
+                Target::Named(name) => writable_name(name, setting.place),
+                Target::Numbered(index) => run::value(index, arena, state, stack).and_then(|i| writable(i, setting.place)),
+            };
+            let value = place.and_then(|place| Ok((place, run::value(setting.value, arena, state, stack)?)));
+            match value {
+                Ok(pair) => self.settings.push(pair),
+                Err(fault) => {
+                    out.push(fault.diag(source));
+                    return None;
+                }
+            }
         }
-        request
+        for &(place, value) in &self.settings {
+            match place {
+                Place::Numbered(index) => state.params.set(index, value),
+                Place::Named(name) if name.kind == Kind::Outside => {
+                    if !state.options.host.set_value(arena.names.text(name), value) {
+                        out.push(
+                            Diag::new(Code::BadParameter, self.span, "can't be set").help("the PLC program does not offer it"),
+                        );
+                        return None;
+                    }
+                }
+                Place::Named(name) => state.params.set_named(name, value),
+            }
+        }
+        Some(())
     }
 
     /// The code of a group, if the block has one.
     pub fn code(&self, group: Group) -> Option<Action> {
-        self.codes[group as usize].map(|(action, _)| action)
+        self.has_group(group).then(|| self.codes[group as usize].0)
+    }
+
+    /// Where the code of a group stands; else the block.
+    pub fn code_span(&self, group: Group) -> Span {
+        if self.has_group(group) { self.codes[group as usize].1 } else { self.span }
+    }
+
+    fn has_group(&self, group: Group) -> bool {
+        self.has_code & (1 << group as u32) != 0
+    }
+
+    /// True if the block has neither codes nor letters.
+    pub fn is_empty(&self) -> bool {
+        self.has_code == 0 && self.has_letter == 0
+    }
+
+    /// True if there is nothing but a motion code and letters other than T.
+    pub fn only_moves(&self) -> bool {
+        self.has_code & !(1 << Group::Motion as u32) == 0 && self.has_letter & bit('T') == 0
+    }
+
+    /// G0 or G1 with the letters that it always takes: nothing to check.
+    fn is_plain_move(&self) -> bool {
+        const PLAIN: u32 = bit('X') | bit('Y') | bit('Z') | bit('A') | bit('B') | bit('C') | bit('F') | bit('S') | bit('T');
+        self.only_moves() && self.has_letter & !PLAIN == 0 && matches!(self.motion, Some(Motion::Rapid | Motion::Linear))
     }
 
     /// The word with this letter, if the block has one.
     pub fn word(&self, letter: char) -> Option<Word> {
-        self.letters[slot(letter)?]
+        let i = slot(letter)?;
+        (self.has_letter & (1 << i) != 0).then(|| self.letters[i])
     }
 
     /// Its value.
@@ -57,11 +218,17 @@ impl Request {
         self.word(letter).map(|w| w.value)
     }
 
+    /// True if one of these letters is there.
+    pub fn any(&self, letters: &str) -> bool {
+        letters.chars().any(|l| self.word(l).is_some())
+    }
+
     /// Where the motion stands: its code, or else the first word that it uses.
     pub fn motion_span(&self) -> Span {
-        let code = self.codes[Group::Motion as usize].map(|(_, span)| span);
-        let word = || AXES.iter().chain(&CENTRE).find_map(|&l| self.word(l)).map(|w| w.span);
-        code.or_else(word).unwrap_or(self.span)
+        if self.has_group(Group::Motion) {
+            return self.codes[Group::Motion as usize].1;
+        }
+        AXES.iter().chain(&CENTRE).find_map(|&l| self.word(l)).map_or(self.span, |w| w.span)
     }
 
     /// From the first to the last of these words.
@@ -70,41 +237,117 @@ impl Request {
         spans.reduce(|a, b| a.to(b)).unwrap_or_else(|| self.motion_span())
     }
 
-    fn add_code(&mut self, word: &Word, out: &mut Vec<Diag>) {
-        let Some(action) = word.action() else { return out.push(unknown(word)) };
-        let place = &mut self.codes[action.group() as usize];
-        match *place {
-            Some((_, first)) => out.push(conflict(action.group(), word.span, first)),
-            None => *place = Some((action, word.span)),
-        }
+    /// Words that move an axis.
+    fn axis_words(&self) -> bool {
+        const ALL: u32 = bit('X') | bit('Y') | bit('Z') | bit('A') | bit('B') | bit('C');
+        self.has_letter & (ALL | 1 << 26 | 1 << 27) != 0
     }
 
-    fn add_letter(&mut self, word: &Word, out: &mut Vec<Diag>) {
-        let Some(place) = slot(word.letter).map(|i| &mut self.letters[i]) else { return };
-        match *place {
-            Some(first) => out.push(
+    fn add_code(
+        &mut self,
+        letter: char,
+        value: f64,
+        action: Option<Action>,
+        span: Span,
+        state: &State,
+        out: &mut Vec<Diag>,
+    ) -> bool {
+        let action = action.or_else(|| if letter == 'G' { word::g_of(value) } else { word::m_of(value) });
+        let foreign = |a: &Action| state.options.drop_in && matches!(a, Action::User(_));
+        let Some(action) = action.filter(|a| !foreign(a)) else {
+            out.push(unknown(letter, value, span));
+            return false;
+        };
+        let group = action.group();
+        if self.has_group(group) {
+            out.push(conflict(group, span, self.codes[group as usize].1));
+        } else {
+            self.has_code |= 1 << group as u32;
+            self.codes[group as usize] = (action, span);
+        }
+        true
+    }
+
+    fn add_letter(&mut self, word: Word, out: &mut Vec<Diag>) {
+        let Some(i) = slot(word.letter) else { return };
+        if self.has_letter & (1 << i) != 0 {
+            out.push(
                 Diag::new(Code::DuplicateWord, word.span, format!("a second {} word", word.letter))
-                    .also(first.span, "the first one stands here")
+                    .also(self.letters[i].span, "the first one stands here")
                     .help("keep one of them, or write two blocks"),
-            ),
-            None => *place = Some(*word),
+            );
+        } else {
+            self.has_letter |= 1 << i;
+            self.letters[i] = word;
         }
     }
 
-    fn find_motion(&self, modal: &Modal) -> Option<Motion> {
+    /// A code that takes the axis words leaves none for the motion in force.
+    fn find_motion(&self, state: &State) -> Option<Motion> {
         if let Some(Action::Motion(motion)) = self.code(Group::Motion) {
             return motion;
         }
-        let axes = AXES.iter().any(|&l| self.word(l).is_some());
-        let centre = CENTRE.iter().any(|&l| self.word(l).is_some());
-        modal.motion.filter(|m| axes || (centre && m.is_arc()))
+        if self.taker().is_some() || self.has_letter == 0 {
+            return None;
+        }
+        let modal = state.modal.motion?;
+        let centre = || CENTRE.iter().any(|&l| self.word(l).is_some());
+        (self.axis_words() || (modal.is_arc() && centre())).then_some(modal)
     }
 
-    fn check_values(&self, out: &mut Vec<Diag>) {
+    /// The code that takes the axis words for itself.
+    fn taker(&self) -> Option<(Action, Span)> {
+        let place = |group: Group| self.has_group(group).then(|| self.codes[group as usize]);
+        [Group::NonModal, Group::Length].into_iter().filter_map(place).find(|(action, _)| action.takes_axes())
+    }
+
+    /// Words without which a motion code makes no sense, whatever the modes.
+    fn check_motion(&self, out: &mut Vec<Diag>) {
+        let Some(Action::Motion(Some(motion))) = self.code(Group::Motion) else { return };
+        let help = match motion {
+            Motion::Probe(_) | Motion::Synchronized | Motion::RigidTap | Motion::Canned(_) if !self.axis_words() => {
+                "write where the motion ends"
+            }
+            Motion::Thread => match ['P', 'I', 'J', 'K', 'Z'].iter().find(|&&l| self.word(l).is_none()) {
+                Some(letter) => {
+                    let help = "a thread has its pitch P, its end Z, and I, J, K for its depth";
+                    return out.push(missing(self.motion_span(), &letter.to_string()).help(help));
+                }
+                None if self.value('P').is_some_and(|p| p <= 0.0) => "the pitch P is above 0",
+                None => return,
+            },
+            Motion::Synchronized | Motion::RigidTap if self.word('K').is_none() => {
+                return out.push(missing(self.motion_span(), "K").help("K is the distance a revolution of the spindle"));
+            }
+            Motion::Canned(_) if self.value('L').is_some_and(|l| word::whole(l).is_none()) => "L is a whole number of holes",
+            _ => return,
+        };
+        out.push(missing(self.motion_span(), "an axis word").help(help));
+    }
+
+    fn check_values(&self, state: &State, out: &mut Vec<Diag>) {
+        const CHECKED: u32 = bit('F') | bit('S') | bit('T') | bit('P') | bit('L');
+        self.check_motion(out);
+        if state.options.drop_in
+            && self.code(Group::NonModal) == Some(Action::Machine)
+            && !matches!(self.motion, Some(Motion::Rapid | Motion::Linear))
+        {
+            out.push(not_now(self.code_span(Group::NonModal), "G53 without a motion", "write G0 or G1 in the block"));
+        }
+        if self.has_letter & CHECKED == 0 && self.only_moves() {
+            return;
+        }
         for letter in ['F', 'S'] {
             if let Some(word) = self.word(letter).filter(|w| w.value < 0.0) {
                 out.push(bad_value(word, "less than zero", "write zero or more"));
             }
+        }
+        if let Some(word) = self.word('L').filter(|w| w.value < 0.0) {
+            out.push(bad_value(word, "less than zero", "write zero or more"));
+        }
+        if let Some(word) = self.word('P').filter(|w| self.motion.is_some_and(Motion::is_arc) && w.whole().is_none_or(|p| p == 0))
+        {
+            out.push(bad_value(word, "not a number of turns", "write a whole number from 1"));
         }
         if let Some(word) = self.word('T').filter(|w| w.whole().is_none()) {
             out.push(bad_value(word, "not the number of a tool", "write a whole number from 0"));
@@ -115,42 +358,101 @@ impl Request {
             out.push(bad_value(word, "less than zero", "write zero or more"));
         }
         if self.code(Group::NonModal) == Some(Action::Dwell) && self.word('P').is_none() {
-            let at = self.codes[Group::NonModal as usize].map_or(self.span, |(_, span)| span);
+            let at = self.code_span(Group::NonModal);
             out.push(missing(at, "P").help("write the time in seconds, such as G4 P0.5"));
+        }
+        if let (Some((_, taker)), Some(Action::Motion(Some(motion)))) = (self.taker(), self.code(Group::Motion))
+            && self.axis_words()
+        {
+            out.push(two_takers(taker, motion, self.code_span(Group::Motion)));
         }
     }
 
-    fn check_used(&self, block: &Block, out: &mut Vec<Diag>) {
-        let codes: Vec<Action> = self.codes.iter().flatten().map(|&(action, _)| action).collect();
-        let modal = (self.code(Group::Motion).is_none()).then_some(Action::Motion(self.motion));
-        let readers = |letter| codes.iter().chain(&modal).filter(move |a| a.operands().contains(letter)).count();
-        for word in block.words.iter().filter(|w| !matches!(w.letter, 'G' | 'M' | 'F' | 'S' | 'T')) {
-            match readers(word.letter) {
-                0 => out.push(unused(word)),
+    fn check_used(&self, row: &Row, source: SourceId, arena: &Arena, out: &mut Vec<Diag>) {
+        let own = (0..GROUPS).filter(|i| self.has_code & (1 << i) != 0).map(|i| self.codes[i].0);
+        let modal = (!self.has_group(Group::Motion)).then_some(Action::Motion(self.motion));
+        for word in &arena.words[row.words.range()] {
+            if matches!(word.letter, 'G' | 'M' | 'F' | 'S' | 'T') {
+                continue;
+            }
+            if word.letter == '$' && self.has_spindle_code() {
+                continue;
+            }
+            let readers = own.clone().chain(modal).filter(|a| a.operands().contains(word.letter)).count();
+            let span = Span { source, start: word.place.0, end: word.place.1 };
+            match readers {
+                0 => out.push(unused(word.letter, span)),
                 1 => {}
-                _ => out.push(claimed_twice(word)),
+                _ if self.shared(word.letter) => {}
+                _ => out.push(claimed_twice(word.letter, span)),
             }
         }
     }
 
-    /// Tolerance of G64 in length units; 0 if none is given.
+    /// A code that names a spindle.
+    fn has_spindle_code(&self) -> bool {
+        let groups = [Group::Spindle, Group::SpindleMode, Group::Overrides];
+        let motion = matches!(
+            self.motion,
+            Some(Motion::Synchronized | Motion::RigidTap | Motion::Thread | Motion::Canned(74 | 84 | 86 | 87 | 88))
+        );
+        motion || self.word('S').is_some() || groups.into_iter().any(|g| self.has_group(g))
+    }
+
+    /// Letters that two codes of one block may read: both mean the same.
+    fn shared(&self, letter: char) -> bool {
+        letter == 'R' && matches!(self.code(Group::Retract), Some(Action::Retract(Retract::R)))
+            || self.code(Group::Io) == Some(Action::Io(66)) && letter == 'P'
+            || "XYZABCUVW@^".contains(letter)
+    }
+
+    /// P of G64 in length units; 0 if none is given.
     pub fn tolerance(&self, control: Control) -> f64 {
         if control == Control::Continuous { self.value('P').unwrap_or(0.0) } else { 0.0 }
     }
 }
 
-fn slot(letter: char) -> Option<usize> {
-    (letter as usize).checked_sub('A' as usize).filter(|&i| i < 26)
+const fn bit(letter: char) -> u32 {
+    1 << (letter as u32 - 'A' as u32)
 }
 
-fn unknown(word: &Word) -> Diag {
-    let label = format!("{}{} means nothing here", word.letter, word.value);
-    let help = match word.letter {
-        'G' => word.tenths().map_or("G codes have at most one decimal", word::instead_of_g),
-        _ if matches!(word.whole(), Some(98 | 99)) => "subprograms are not part of this version: repeat the blocks",
+fn slot(letter: char) -> Option<usize> {
+    match letter {
+        'A'..='Z' => Some(letter as usize - 'A' as usize),
+        '@' => Some(26),
+        '^' => Some(27),
+        '$' => Some(28),
+        _ => None,
+    }
+}
+
+fn writable(index: f64, place: (u32, u32)) -> Result<Place, Fault> {
+    let fault = |label, help| Err(Fault::at(Code::BadParameter, place.0, place.1, label, help));
+    match param::index(index) {
+        Some(index) if State::read_only(index) => fault("read only", "it shows the state of the tool or the position"),
+        Some(index) => Ok(Place::Numbered(index)),
+        None => fault("no parameter has this number", "numbers are whole, from 1 to 5601"),
+    }
+}
+
+fn writable_name(name: Name, place: (u32, u32)) -> Result<Place, Fault> {
+    match name.kind {
+        Kind::Fixed(_) => {
+            let help = "it shows the state of the interpreter; choose another name";
+            Err(Fault::at(Code::BadParameter, place.0, place.1, "read only", help))
+        }
+        _ => Ok(Place::Named(name)),
+    }
+}
+
+fn unknown(letter: char, value: f64, span: Span) -> Diag {
+    let label = format!("{letter}{value} means nothing here");
+    let help = match letter {
+        'G' => word::whole(value * 10.0).map_or("G codes have at most one decimal", word::instead_of_g),
         _ => "M codes are whole numbers from 0 to 199",
     };
-    Diag::new(Code::UnknownCode, word.span, label).help(help)
+    let cycle = letter == 'G' && matches!(word::whole(value * 10.0), Some(700..=729));
+    Diag::new(if cycle { Code::NotInThisVersion } else { Code::UnknownCode }, span, label).help(help)
 }
 
 fn conflict(group: Group, at: Span, first: Span) -> Diag {
@@ -159,21 +461,31 @@ fn conflict(group: Group, at: Span, first: Span) -> Diag {
         .help("keep one of them, or write two blocks")
 }
 
-fn claimed_twice(word: &Word) -> Diag {
-    Diag::new(Code::ModalConflict, word.span, format!("{} would belong to several codes", word.letter))
+fn two_takers(taker: Span, motion: Motion, at: Span) -> Diag {
+    Diag::new(Code::ModalConflict, at, format!("{} would use the axis words too", motion.text()))
+        .message("two codes of the block use the axis words")
+        .also(taker, "this code uses them")
+        .help("write two blocks")
+}
+
+fn claimed_twice(letter: char, span: Span) -> Diag {
+    Diag::new(Code::ModalConflict, span, format!("{letter} would belong to several codes"))
         .message("two codes of the block read the same word")
         .help("write two blocks")
 }
 
-fn unused(word: &Word) -> Diag {
-    let help = match word.letter {
+fn unused(letter: char, span: Span) -> Diag {
+    let help = match letter {
         'X' | 'Y' | 'Z' | 'A' | 'B' | 'C' => "write the motion: G0, G1, G2 or G3",
-        'I' | 'J' | 'K' | 'R' => "only G2 and G3 have a centre or a radius",
+        'I' | 'J' | 'K' | 'R' => "only arcs, splines and cycles have such a word",
         'U' | 'V' | 'W' => "the axes are X Y Z A B C",
-        'P' | 'Q' => "P belongs to G2, G3, G4, G64 and user M codes, Q to user M codes",
+        'P' | 'Q' => "P and Q belong to G4, G10, G64, arcs, splines, cycles and user M codes",
+        'D' => "D belongs to G41, G42 and G96",
+        'H' => "H belongs to G43",
+        'L' => "L belongs to G10, M66, M98 and cycles",
         _ => "remove the word",
     };
-    Diag::new(Code::UnusedWord, word.span, format!("nothing reads {}", word.letter)).help(help)
+    Diag::new(Code::UnusedWord, span, format!("nothing reads {letter}")).help(help)
 }
 
 /// A value that its word can't have.
@@ -184,4 +496,9 @@ pub fn bad_value(word: Word, label: &str, help: &str) -> Diag {
 /// A word that a code needs.
 pub fn missing(at: Span, letter: &str) -> Diag {
     Diag::new(Code::MissingWord, at, format!("needs {letter}"))
+}
+
+/// A code that the mode in force does not allow.
+pub fn not_now(at: Span, label: impl Into<String>, help: &str) -> Diag {
+    Diag::new(Code::NotInThisMode, at, label).help(help)
 }

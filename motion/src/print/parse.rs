@@ -1,5 +1,7 @@
 //! Reads a listing back (CM-T16).
 
+mod extension;
+
 use super::names::{direction_of, plane_of, reference_of, units_of};
 use crate::canon::{Arc, Canon, MotionMode, Position, ProgramEnd};
 
@@ -67,7 +69,7 @@ fn read(name: &str, inside: &str) -> Result<Canon, BadLine> {
         "SELECT_TOOL" => one(&args).and_then(|a| a.parse().ok()).map(Canon::SelectTool),
         "ORIENT_SPINDLE" => read_orientation(&args),
         "USER_M_CODE" => read_user(&args),
-        _ => return Err(BadLine::Name),
+        _ => return extension::read(name, inside, &args),
     };
     known.ok_or(BadLine::Arguments)
 }
@@ -146,7 +148,7 @@ fn unquoted(text: &str) -> Option<String> {
 }
 
 /// Commands without arguments.
-pub(super) const BARE: [(&str, Canon); 20] = [
+pub(super) const BARE: [(&str, Canon); 28] = [
     ("INIT_CANON", Canon::InitCanon),
     ("END_CANON", Canon::EndCanon),
     ("START_SPEED_FEED_SYNCH", Canon::StartSpeedFeedSynch),
@@ -166,5 +168,13 @@ pub(super) const BARE: [(&str, Canon); 20] = [
     ("PALLET_SHUTTLE", Canon::PalletShuttle),
     ("PROGRAM_STOP", Canon::ProgramStop),
     ("OPTIONAL_PROGRAM_STOP", Canon::OptionalProgramStop),
+    ("START_CHANGE", Canon::StartChange),
+    ("TURN_PROBE_ON", Canon::TurnProbeOn),
+    ("TURN_PROBE_OFF", Canon::TurnProbeOff),
+    ("ENABLE_ADAPTIVE_FEED", Canon::EnableAdaptiveFeed),
+    ("DISABLE_ADAPTIVE_FEED", Canon::DisableAdaptiveFeed),
+    ("ENABLE_FEED_HOLD", Canon::EnableFeedHold),
+    ("DISABLE_FEED_HOLD", Canon::DisableFeedHold),
+    ("LOGCLOSE", Canon::LogClose),
     ("PROGRAM_END", Canon::ProgramEnd(ProgramEnd::M2)),
 ];

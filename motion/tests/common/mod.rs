@@ -1,6 +1,7 @@
 //! Programs for the tests: canonical commands made by hand, so that the motion tests need no interpreter.
 #![allow(dead_code)] // Each test file uses its own part.
 
+pub mod oracle;
 pub mod programs;
 pub mod rig;
 

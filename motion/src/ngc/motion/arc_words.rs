@@ -1,52 +1,29 @@
-//! Where a motion block ends, and the forms of an arc: centre as a step or as a place, or a radius (R1-48, R1-57, R1-58).
+//! The forms of an arc: centre as a step or as a place, or a radius (R1-48, R1-57, R1-58).
 
-use super::arc::{self, Point};
-use super::modal::{Distance, Modal, Motion, in_plane, mm_per_unit};
-use super::request::{AXES, Request, bad_value, missing};
-use crate::canon::{Arc, Canon, Plane, Position, Units};
+use crate::canon::{Arc, Plane, Position, Units};
+use crate::ngc::arc::{self, Point};
+use crate::ngc::modal::{Distance, Modal, in_plane, mm_per_unit};
+use crate::ngc::request::{Request, bad_value, missing};
 use takt_base::{Code, Diag};
 
-/// The command for the motion of `request`, and the position behind it. Warnings go to `warnings`.
-pub fn command(motion: Motion, request: &Request, modal: &Modal, warnings: &mut Vec<Diag>) -> (Position, Result<Canon, Diag>) {
-    let end = target(request, modal);
-    if motion != Motion::Rapid && modal.feed.is_none_or(|f| f == 0.0) {
-        return (end, Err(no_feed(motion, request)));
-    }
-    let command = match motion {
-        Motion::Rapid => Ok(Canon::StraightTraverse(end)),
-        Motion::Linear => Ok(Canon::StraightFeed(end)),
-        Motion::ArcCw | Motion::ArcCcw => {
-            ArcWords { request, modal, end, counterclockwise: motion == Motion::ArcCcw }.arc(warnings).map(Canon::ArcFeed)
-        }
-    };
-    (end, command)
-}
-
-fn target(request: &Request, modal: &Modal) -> Position {
-    let from: [f64; 6] = modal.position.into();
-    let mut to = from;
-    for (i, letter) in AXES.into_iter().enumerate() {
-        if let Some(value) = request.value(letter) {
-            to[i] = if modal.distance == Distance::Absolute { value } else { from[i] + value };
-        }
-    }
-    to.into()
-}
-
-fn no_feed(motion: Motion, request: &Request) -> Diag {
-    Diag::new(Code::NoFeed, request.motion_span(), format!("{} with no F before or in the block", motion.text()))
-        .help("write a feed in length units a minute, such as F600")
-}
-
-struct ArcWords<'a> {
-    request: &'a Request,
-    modal: &'a Modal,
-    end: Position,
-    counterclockwise: bool,
+/// An arc block.
+pub struct ArcWords<'a> {
+    /// Its words.
+    pub request: &'a Request,
+    /// The modes at its start.
+    pub modal: &'a Modal,
+    /// Where it ends.
+    pub end: Position,
+    /// G3.
+    pub counterclockwise: bool,
 }
 
 impl ArcWords<'_> {
-    fn arc(&self, warnings: &mut Vec<Diag>) -> Result<Arc, Diag> {
+    /// The command.
+    ///
+    /// # Errors
+    /// The words give no arc.
+    pub fn arc(&self, warnings: &mut Vec<Diag>) -> Result<Arc, Diag> {
         let turns = self.turns()?;
         let centre = match self.request.word('R') {
             Some(_) => self.centre_by_radius(warnings)?,
@@ -162,7 +139,7 @@ const UNSTABLE: f64 = 4e-5;
 /// Sine of the half sweep below which an arc by radius is near a full turn: about 1 degree.
 const UNSTABLE_FULL: f64 = 0.0087;
 
-fn unstable(word: super::block::Word) -> Diag {
+fn unstable(word: crate::ngc::request::Word) -> Diag {
     Diag::new(Code::UnstableArc, word.span, "near half a turn or a full turn").help("give the centre with I, J, K")
 }
 

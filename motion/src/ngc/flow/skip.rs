@@ -1,0 +1,114 @@
+//! Over rows that are not executed, to the O word that is looked for. Only rows that start with `o` are compiled.
+
+use super::{Flow, Key, misfit};
+use crate::ngc::code::Row;
+use crate::ngc::fault::Fault;
+use crate::ngc::lines::Place;
+use crate::ngc::oword::{Keyword, Label};
+
+impl Flow {
+    /// Goes to the next row with `key` and one of `keywords`, and reads it. `from` is the O word that asks.
+    pub(super) fn skip_to(&mut self, key: Key, keywords: &[Keyword], from: (u32, u32)) -> Result<Row, Fault> {
+        let origin = (self.files.at, self.here.key());
+        if let Some(&place) = self.jumps.get(&origin) {
+            self.files.lines().place = place;
+            if let super::Next::Row(row) = self.next_row() {
+                return Ok(row);
+            }
+        }
+        loop {
+            let Some((row, place)) = self.next_oword() else {
+                let help = "write the O word that ends it, with the same number or name";
+                return Err(misfit(from, "nothing ends this block", help));
+            };
+            let Some(word) = row.oword else { continue };
+            if word.keyword == Keyword::Sub && !keywords.contains(&Keyword::Sub) && self.key(word.label) != Some(key) {
+                return Err(misfit(
+                    from,
+                    "another subroutine starts before this block ends",
+                    "end it with its own number or name",
+                ));
+            }
+            if keywords.contains(&word.keyword) && self.key(word.label) == Some(key) {
+                self.remember(origin, place);
+                self.here = place;
+                return Ok(row);
+            }
+        }
+    }
+
+    fn remember(&mut self, origin: (u32, u64), place: Place) {
+        if self.keeps() && self.jumps.len() < 100_000 {
+            self.jumps.insert(origin, place);
+        }
+    }
+
+    /// The next row with an O word, and where it stands; `None` at the end of the text.
+    fn next_oword(&mut self) -> Option<(Row, Place)> {
+        loop {
+            let place = self.files.lines().place;
+            let piece = self.files.next_piece()?;
+            let text = self.files.text_ref();
+            let inside = &text[piece.range.clone()];
+            if inside.trim_start().starts_with('%') {
+                return None;
+            }
+            let wanted = starts_with_o(inside);
+            if !wanted && !self.thorough {
+                continue;
+            }
+            let mark = self.code.mark();
+            match self.reader.read(inside, piece.range.start, piece.line, &mut self.code) {
+                Ok(row) if wanted => return Some((row, place)),
+                Ok(_) => self.code.truncate(mark),
+                Err(fault) if self.thorough => self.found.push((piece.line, fault)),
+                Err(_) => {}
+            }
+        }
+    }
+
+    /// All subroutines and program numbers of the text at hand.
+    pub(super) fn index_subs(&mut self) {
+        let back = self.files.spot();
+        let thorough = std::mem::replace(&mut self.thorough, false);
+        self.files.lines().place = Place::default();
+        loop {
+            let mark = self.code.mark();
+            let Some((row, _)) = self.next_oword() else { break };
+            if let Some(word) = row.oword
+                && matches!(word.keyword, Keyword::Sub | Keyword::Program)
+                && let Some(key) = self.key(word.label)
+            {
+                let spot = self.files.spot();
+                self.subs.entry(key).or_insert(spot);
+            }
+            self.code.truncate(mark);
+        }
+        self.thorough = thorough;
+        self.files.go(back);
+    }
+
+    /// Key of a label that is no expression.
+    pub(super) fn key(&self, label: Label) -> Option<Key> {
+        match label {
+            Label::Number(number) => Some(Key::Number(number)),
+            Label::Name(name) => Some(Key::of(name)),
+            Label::Computed(_) => None,
+        }
+    }
+}
+
+/// Behind blanks, `/` and a block number.
+fn starts_with_o(text: &str) -> bool {
+    let bytes = text.as_bytes();
+    let blank = |b: &&u8| matches!(b, b' ' | b'\t' | b'/');
+    let mut rest = bytes.iter().skip_while(blank);
+    match rest.next() {
+        Some(b'o' | b'O') => true,
+        Some(b'n' | b'N') => {
+            let mut rest = rest.skip_while(|b| b.is_ascii_digit() || matches!(b, b' ' | b'\t' | b'.'));
+            matches!(rest.next(), Some(b'o' | b'O'))
+        }
+        _ => false,
+    }
+}
