@@ -33,6 +33,12 @@ pub fn compile_st(text: &str) -> Compilation {
     compile_in(Profile::Std, text)
 }
 
+/// Checks one file of profile `std`, as `takt check` does: no machine code.
+pub fn check_st(text: &str) -> Compilation {
+    let file = File { name: "test.st".into(), bytes: text.into(), library: false, profile: Profile::Std };
+    compile(Project { name: "test".into(), files: vec![file], attachments: vec![], interval: None, native: false })
+}
+
 /// Compiles one file of a profile.
 pub fn compile_in(profile: Profile, text: &str) -> Compilation {
     compile_bytes(profile, text.into())
