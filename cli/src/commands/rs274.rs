@@ -19,7 +19,7 @@ pub struct Args {
     /// Batch mode; it is always on
     #[arg(short = 'g')]
     batch: bool,
-    /// INI file: SUBROUTINE_PATH, PROGRAM_PREFIX and the values of #<_ini[section]name>
+    /// INI file: SUBROUTINE_PATH, PROGRAM_PREFIX and the values of `#<_ini[section]name>`
     #[arg(short = 'i', value_name = "INI")]
     ini: Option<PathBuf>,
     /// Tool table
