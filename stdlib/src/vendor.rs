@@ -44,6 +44,22 @@ fn is_counter(name: &str) -> bool {
     matches!(base, "CTU" | "CTD" | "CTUD") && matches!(ty, "INT" | "DINT" | "LINT" | "UDINT" | "ULINT")
 }
 
+/// Position of the input that edition 2, or CODESYS, calls `input` at a standard function, both in upper case.
+pub fn input(function: &str, input: &str, profile: Profile) -> Option<usize> {
+    let names: &[&str] = match function {
+        _ if function.starts_with("CONCAT_DATE_") => &["IN1", "IN2"],
+        _ if !profile.is_codesys() => return None,
+        "LEN" => &["STR"],
+        "LEFT" | "RIGHT" => &["STR", "SIZE"],
+        "MID" | "DELETE" => &["STR", "LEN", "POS"],
+        "CONCAT" | "FIND" => &["STR1", "STR2"],
+        "INSERT" => &["STR1", "STR2", "POS"],
+        "REPLACE" => &["STR1", "STR2", "L", "P"],
+        _ => return None,
+    };
+    names.iter().position(|name| *name == input)
+}
+
 /// The pin of a library block that the vendors call `pin`, both in upper case.
 pub fn pin(block: &str, pin: &str) -> Option<&'static str> {
     match (block, pin) {

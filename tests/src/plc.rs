@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 use takt_base::diag::render;
-use takt_base::{Nanos, Profile, Severity};
+use takt_base::{Code, Nanos, Profile, Severity};
 use takt_compiler::driver::{Compilation, File, Project, compile};
 use takt_compiler::mir::Interpreter;
 use takt_image::retain::{RetainMap, Start};
@@ -35,8 +35,8 @@ pub fn compile_st(text: &str) -> Compilation {
 
 /// Checks one file of profile `std`, as `takt check` does: no machine code.
 pub fn check_st(text: &str) -> Compilation {
-    let file = File { name: "test.st".into(), bytes: text.into(), library: false, profile: Profile::Std };
-    compile(Project { name: "test".into(), files: vec![file], attachments: vec![], interval: None, native: false })
+    let profile = Profile::Std;
+    compile_files(vec![File { name: "test.st".into(), bytes: text.into(), library: false, profile }], false)
 }
 
 /// Compiles one file of a profile.
@@ -45,11 +45,11 @@ pub fn compile_in(profile: Profile, text: &str) -> Compilation {
 }
 
 fn compile_bytes(profile: Profile, bytes: Vec<u8>) -> Compilation {
-    compile_files(vec![File { name: "test.st".into(), bytes, library: false, profile }])
+    compile_files(vec![File { name: "test.st".into(), bytes, library: false, profile }], true)
 }
 
-fn compile_files(files: Vec<File>) -> Compilation {
-    compile(Project { name: "test".into(), files, attachments: vec![], interval: None, native: true })
+fn compile_files(files: Vec<File>, native: bool) -> Compilation {
+    compile(Project { name: "test".into(), files, attachments: vec![], interval: None, native })
 }
 
 impl Plc {
@@ -80,7 +80,7 @@ impl Plc {
 
     /// Compiles and loads a project of several files; panics with the messages if it has errors.
     pub fn from_files(files: Vec<File>) -> Self {
-        Self::load_compiled(compile_files(files)).unwrap_or_else(|messages| panic!("{messages}"))
+        Self::load_compiled(compile_files(files, true)).unwrap_or_else(|messages| panic!("{messages}"))
     }
 
     fn load_bytes(profile: Profile, bytes: Vec<u8>) -> Result<Self, String> {
@@ -199,9 +199,24 @@ pub fn initial_memory(image: &Image) -> Vec<u8> {
     memory
 }
 
+/// Codes of the errors in a file of a profile, in order; warnings left out.
+pub fn errors(profile: Profile, text: &str) -> Vec<Code> {
+    compile_in(profile, text).diags.iter().filter(|d| d.severity == Severity::Error).map(|d| d.code).collect()
+}
+
+/// The same in profile `std`, as the user reads them.
+pub fn error_codes(text: &str) -> Vec<&'static str> {
+    errors(Profile::Std, text).into_iter().map(Code::text).collect()
+}
+
 /// Runs `text` for `scans` scans and compares variables (paths and literals as shown).
 pub fn check_program(text: &str, scans: i64, expected: &[(&str, &str)]) {
-    let mut plc = Plc::new(text);
+    check_profile(Profile::Std, text, scans, expected);
+}
+
+/// The same for a text of a profile.
+pub fn check_profile(profile: Profile, text: &str, scans: i64, expected: &[(&str, &str)]) {
+    let mut plc = Plc::new_in(profile, text);
     plc.scans(scans);
     let found: Vec<_> = expected.iter().map(|(name, _)| (*name, plc.get(name))).collect();
     let found: Vec<_> = found.iter().map(|(name, value)| (*name, value.as_str())).collect();

@@ -1,10 +1,9 @@
 //! VAR_ACCESS (IEC 61131-3 reference §3.8): names for variables, with a type and a direction, in configurations and programs.
 
-use takt_base::Severity;
 use takt_image::image::Access;
 use takt_image::path::resolve;
 use takt_image::value::Patch;
-use takt_tests::plc::{Plc, compile_st};
+use takt_tests::plc::{Plc, error_codes};
 
 const UNITS: &str = "TYPE Pair : STRUCT a, b : INT; END_STRUCT END_TYPE
 FUNCTION_BLOCK Lamp VAR_INPUT lit : BOOL; END_VAR VAR q AT %Q* : BOOL; END_VAR VAR_OUTPUT n : DINT; END_VAR q := lit; n := n + 1; END_FUNCTION_BLOCK
@@ -23,8 +22,7 @@ fn plant(access: &str) -> String {
 }
 
 fn codes(access: &str) -> Vec<&'static str> {
-    let diags = compile_st(&plant(access)).diags;
-    diags.iter().filter(|d| d.severity == Severity::Error).map(|d| d.code.text()).collect()
+    error_codes(&plant(access))
 }
 
 #[test]
@@ -119,8 +117,7 @@ fn s3_8_paths_of_programs() {
             CONFIGURATION c VAR_GLOBAL g : INT; END_VAR RESOURCE r ON PLC PROGRAM l : Last; PROGRAM m : {}; END_RESOURCE END_CONFIGURATION",
             if kind == "PROGRAM" { "Main (i := g)" } else { "Last" }
         );
-        let diags = compile_st(&text).diags;
-        diags.iter().filter(|d| d.severity == Severity::Error).map(|d| d.code.text()).collect::<Vec<_>>()
+        error_codes(&text)
     };
     for (path, want) in [
         ("A : x : DINT;", "P3083"),

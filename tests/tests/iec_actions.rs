@@ -1,23 +1,8 @@
 //! ACTION as a part of a unit (language reference, sections 4.5, 5.7, 17) run on both engines.
 
-use takt_base::{Code, Profile, Severity};
+use takt_base::{Code, Profile};
 use takt_image::Trap;
-use takt_tests::plc::{Plc, compile_in};
-
-fn check(profile: Profile, text: &str, scans: i64, want: &[(&str, &str)]) {
-    let mut plc = Plc::new_in(profile, text);
-    plc.scans(scans);
-    for (name, value) in want {
-        assert_eq!(plc.get(name), *value, "{name} in\n{text}");
-    }
-}
-
-fn errors(profile: Profile, text: &str) -> Vec<Code> {
-    let c = compile_in(profile, text);
-    c.diags.iter().filter(|d| d.severity == Severity::Error).map(|d| d.code).collect()
-}
-
-const ALL: [Profile; 4] = [Profile::Std, Profile::Codesys, Profile::Codesys2, Profile::OpenPlc];
+use takt_tests::plc::{Plc, check_profile, errors};
 
 #[test]
 fn s4_5_an_action_shares_the_variables_of_its_program() {
@@ -26,8 +11,8 @@ fn s4_5_an_action_shares_the_variables_of_its_program() {
           ACTION step1: n := n + c; IF n > 5 THEN twice(); END_IF; END_ACTION
           ACTION twice: m := m + 100; END_ACTION
         END_PROGRAM";
-    for profile in ALL {
-        check(profile, text, 1, &[("p.n", "6"), ("p.m", "107")]);
+    for profile in Profile::ALL {
+        check_profile(profile, text, 1, &[("p.n", "6"), ("p.m", "107")]);
     }
 }
 
@@ -42,8 +27,8 @@ fn s4_5_inputs_outputs_temporaries_and_in_outs_of_a_block() {
         END_FUNCTION_BLOCK
         PROGRAM p VAR b : f; io : INT := 10; s : S; v : ARRAY[3..4] OF INT; y, k : INT; END_VAR
           b(x := 5, io := io, s := s, a := v, y => y); k := k * 100 + b.k; END_PROGRAM";
-    check(Profile::Std, text, 1, &[("p.io", "12"), ("p.s.a", "23"), ("p.y", "15"), ("p.b.k", "64"), ("p.v", "[2, 2]")]);
-    check(Profile::Std, text, 2, &[("p.io", "14"), ("p.b.k", "64"), ("p.k", "6464")]);
+    check_profile(Profile::Std, text, 1, &[("p.io", "12"), ("p.s.a", "23"), ("p.y", "15"), ("p.b.k", "64"), ("p.v", "[2, 2]")]);
+    check_profile(Profile::Std, text, 2, &[("p.io", "14"), ("p.b.k", "64"), ("p.k", "6464")]);
 }
 
 #[test]
@@ -54,10 +39,10 @@ fn s4_5_calls_from_outside() {
           up();
         END_FUNCTION_BLOCK
         PROGRAM p VAR b : f; l : ARRAY[1..2] OF f; END_VAR b(); b.up(); b.up(); l[2].up(); l[1](); l[1].reset(); END_PROGRAM";
-    check(Profile::Std, text, 1, &[("p.b.n", "3"), ("p.l[2].n", "1"), ("p.l[1].n", "0")]);
+    check_profile(Profile::Std, text, 1, &[("p.b.n", "3"), ("p.l[2].n", "1"), ("p.l[1].n", "0")]);
     let text = "PROGRAM sub VAR n : INT; END_VAR n := n + 1; END_PROGRAM ACTION add: n := n + 10; END_ACTION
         PROGRAM p sub(); sub.add(); END_PROGRAM";
-    check(Profile::Codesys, text, 1, &[("sub.n", "11")]);
+    check_profile(Profile::Codesys, text, 1, &[("sub.n", "11")]);
 }
 
 /// Section 5.7: RETURN leaves the action alone.
@@ -67,7 +52,7 @@ fn s5_7_return_leaves_the_action() {
           early(); n := n + 10;
           ACTION early: n := n + 1; IF n > 0 THEN RETURN; END_IF; n := 1000; END_ACTION
         END_PROGRAM";
-    check(Profile::Std, text, 1, &[("p.n", "11")]);
+    check_profile(Profile::Std, text, 1, &[("p.n", "11")]);
 }
 
 #[test]
@@ -87,7 +72,7 @@ fn s4_5_bodies_in_instruction_list() {
           LD 1
           ST n
         END_FUNCTION_BLOCK";
-    check(Profile::Std, text, 2, &[("p.n", "10")]);
+    check_profile(Profile::Std, text, 2, &[("p.n", "10")]);
 }
 
 /// Section 17: the objects of an export, with the actions behind their unit.
@@ -111,7 +96,7 @@ fn s17_actions_behind_the_unit() {
         FUNCTION_BLOCK g VAR m : INT; END_VAR a(); END_FUNCTION_BLOCK
         ACTIONS ACTION a: m := 1; END_ACTION ACTION b: m := 2; END_ACTION END_ACTIONS
         PROGRAM q VAR x : g; END_VAR x(); x.b(); ACTIONS q ACTION c: ; END_ACTION END_ACTIONS END_PROGRAM";
-    check(Profile::Codesys2, text, 1, &[("p.n", "3"), ("q.x.m", "2")]);
+    check_profile(Profile::Codesys2, text, 1, &[("p.n", "3"), ("q.x.m", "2")]);
     let behind = "PROGRAM p a(); END_PROGRAM ACTION a: ; END_ACTION";
     assert_eq!(errors(Profile::Std, behind), [Code::VendorForm]);
     assert_eq!(errors(Profile::Std, "PROGRAM p a(); ACTIONS ACTION a: ; END_ACTION END_ACTIONS END_PROGRAM"), [Code::VendorForm]);
@@ -131,8 +116,8 @@ fn s4_5_actions_are_inherited_and_replaced() {
         END_FUNCTION_BLOCK
         FUNCTION touch VAR_IN_OUT b : base; END_VAR b.two(); END_FUNCTION
         PROGRAM p VAR b : base; d, e : derived; END_VAR b(); d(); touch(e); e.one(); END_PROGRAM";
-    check(Profile::Std, text, 1, &[("p.b.n", "11"), ("p.d.n", "222"), ("p.e.n", "111")]);
-    check(Profile::Codesys, &text.replace("SUPER.", "SUPER^.").replace("SUPER(", "SUPER^("), 1, &[("p.d.n", "222")]);
+    check_profile(Profile::Std, text, 1, &[("p.b.n", "11"), ("p.d.n", "222"), ("p.e.n", "111")]);
+    check_profile(Profile::Codesys, &text.replace("SUPER.", "SUPER^.").replace("SUPER(", "SUPER^("), 1, &[("p.d.n", "222")]);
 }
 
 /// A VAR_IN_OUT is bound during calls of the body only; outside it is nothing, also of a derived block.

@@ -1,7 +1,6 @@
 //! Instance-specific addresses and initial values, access paths, resources (IEC 61131-3 reference §3.4, §3.6 to §3.8, §10).
 
-use takt_base::Severity;
-use takt_tests::plc::{Plc, compile_st};
+use takt_tests::plc::{Plc, error_codes};
 
 const BLOCKS: &str = "
 FUNCTION_BLOCK Inner
@@ -24,11 +23,6 @@ fn with(config: &str) -> String {
         "{BLOCKS} CONFIGURATION c RESOURCE r ON PLC TASK t (INTERVAL := T#10ms, PRIORITY := 1); PROGRAM p WITH t : Main; END_RESOURCE
         VAR_CONFIG {all} p.m AT %MD0 : DINT; {config} END_VAR END_CONFIGURATION"
     )
-}
-
-fn codes(text: &str) -> Vec<&'static str> {
-    let diags = compile_st(text).diags;
-    diags.iter().filter(|d| d.severity == Severity::Error).map(|d| d.code.text()).collect()
 }
 
 #[test]
@@ -98,7 +92,7 @@ fn s3_7_globals_and_two_programs() {
 
 #[test]
 fn s3_4_s11_what_is_wrong_with_a_configuration() {
-    assert_eq!(codes(BLOCKS), ["P3080", "P3080", "P3080", "P3080"]);
+    assert_eq!(error_codes(BLOCKS), ["P3080", "P3080", "P3080", "P3080"]);
     for (config, want) in [
         ("p.y : INT := 1;", "P3081"),
         ("q.x : INT := 1;", "P3081"),
@@ -109,10 +103,10 @@ fn s3_4_s11_what_is_wrong_with_a_configuration() {
         ("p.x : INT := TRUE;", "P2001"),
         ("p.m AT %MD1 : DINT;", "P1001"),
     ] {
-        assert_eq!(codes(&with(config)), [want], "{config}");
+        assert_eq!(error_codes(&with(config)), [want], "{config}");
     }
     let one = |declared: &str, config: &str| {
-        codes(&format!(
+        error_codes(&format!(
             "PROGRAM M {declared} END_PROGRAM CONFIGURATION c VAR_GLOBAL g : INT; END_VAR RESOURCE r ON PLC PROGRAM p : M; END_RESOURCE
             VAR_CONFIG {config} END_VAR END_CONFIGURATION"
         ))
@@ -149,6 +143,6 @@ fn s3_4_derived_blocks_and_methods() {
     plc.set("%IX0.5", "TRUE");
     plc.scan(10).unwrap();
     assert_eq!(plc.get("%QX0.6"), "FALSE");
-    assert_eq!(codes(&text("o := NOT i;", "p.s.i AT %IX0.5 : BOOL;")), ["P3080"]);
-    assert_eq!(codes(&text("i := o;", config)), ["P3013"]);
+    assert_eq!(error_codes(&text("o := NOT i;", "p.s.i AT %IX0.5 : BOOL;")), ["P3080"]);
+    assert_eq!(error_codes(&text("i := o;", config)), ["P3013"]);
 }

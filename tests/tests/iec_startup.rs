@@ -1,24 +1,15 @@
 //! What happens before the first scan (language reference, sections 3.1, 3.6, 4.4): computed initial values, FB_init, VAR_INST.
 //! Run on both engines.
 
-use takt_base::{Code, Profile, Severity};
-use takt_tests::plc::{Plc, compile_in};
+use takt_base::{Code, Profile};
+use takt_tests::plc::{Plc, check_profile, compile_in, errors};
 
 fn codesys(text: &str) -> Plc {
     Plc::new_in(Profile::Codesys, text)
 }
 
 fn check(text: &str, scans: i64, want: &[(&str, &str)]) {
-    let mut plc = codesys(text);
-    plc.scans(scans);
-    for (name, value) in want {
-        assert_eq!(plc.get(name), *value, "{name} in\n{text}");
-    }
-}
-
-fn errors(profile: Profile, text: &str) -> Vec<Code> {
-    let c = compile_in(profile, text);
-    c.diags.iter().filter(|d| d.severity == Severity::Error).map(|d| d.code).collect()
+    check_profile(Profile::Codesys, text, scans, want);
 }
 
 const DOUBLE: &str = "FUNCTION double : INT VAR_INPUT x : INT; END_VAR double := 2 * x; END_FUNCTION ";

@@ -1,13 +1,12 @@
 //! Namespaces, USING and lists of global variables (language reference §3.5, §3.10, §4.6, §12).
 
 use takt_base::diag::render;
-use takt_base::{Code, Profile, Severity};
+use takt_base::{Code, Profile};
 use takt_compiler::driver::{File, Project, compile};
-use takt_tests::plc::{Plc, compile_in, compile_st};
+use takt_tests::plc::{Plc, compile_in};
 
 fn errors(text: &str) -> Vec<Code> {
-    let c = compile_st(text);
-    c.diags.iter().filter(|d| d.severity == Severity::Error).map(|d| d.code).collect()
+    takt_tests::plc::errors(Profile::Std, text)
 }
 
 #[test]

@@ -1,14 +1,10 @@
 //! Forms that one dialect has and another refuses (language reference, sections 0, 3.2, 3.9, 4.4, 4.7, 5.3, 12).
 
 use takt_base::{Code, Profile, Severity};
-use takt_tests::plc::{Plc, compile_in};
+use takt_tests::plc::{Plc, compile_in, errors};
 
 fn codes(profile: Profile, text: &str) -> Vec<(Code, Severity)> {
     compile_in(profile, text).diags.iter().filter(|d| !d.code.is_advice()).map(|d| (d.code, d.severity)).collect()
-}
-
-fn errors(profile: Profile, text: &str) -> Vec<Code> {
-    codes(profile, text).into_iter().filter(|(_, s)| *s == Severity::Error).map(|(c, _)| c).collect()
 }
 
 fn after(profile: Profile, text: &str, scans: i64, values: &[(&str, &str)]) {

@@ -1,18 +1,14 @@
 //! Pointers and references of the CODESYS profiles (language reference §2.10, §12), in the style of OSCAT, on both engines.
 
-use takt_base::{Code, Profile, Severity};
+use takt_base::{Code, Profile};
 use takt_image::Trap;
-use takt_tests::plc::{Plc, compile_in};
+use takt_tests::plc::{Plc, check_profile, errors};
 
 const V2: Profile = Profile::Codesys2;
 const V3: Profile = Profile::Codesys;
 
 fn run(profile: Profile, text: &str, expected: &[(&str, &str)]) {
-    let mut plc = Plc::new_in(profile, text);
-    plc.scans(1);
-    let found: Vec<_> = expected.iter().map(|(name, _)| (*name, plc.get(name))).collect();
-    let found: Vec<_> = found.iter().map(|(name, value)| (*name, value.as_str())).collect();
-    assert_eq!(found, expected, "\n{text}");
+    check_profile(profile, text, 1, expected);
 }
 
 fn trap(body: &str) -> Option<Trap> {
@@ -23,11 +19,6 @@ fn trap(body: &str) -> Option<Trap> {
         END_VAR {body} END_PROGRAM"
     );
     Plc::new_in(V2, &text).scan(0).err().map(|f| f.trap)
-}
-
-fn codes(profile: Profile, text: &str) -> Vec<Code> {
-    let c = compile_in(profile, text);
-    c.diags.iter().filter(|d| d.severity == Severity::Error).map(|d| d.code).collect()
 }
 
 /// §12: bits of a REAL through a pointer to DWORD, in a function whose argument is pointed to.
@@ -240,10 +231,10 @@ fn what_pointers_do_not_do() {
         ("p := ADR(x, d);", Code::WrongArgumentCount),
         ("x := SIZEOF(nothing);", Code::UnknownName),
     ] {
-        assert_eq!(codes(V3, &program(body)).first(), Some(&code), "{body}");
+        assert_eq!(errors(V3, &program(body)).first(), Some(&code), "{body}");
     }
-    assert!(codes(Profile::Std, &program("")).contains(&Code::VendorForm));
+    assert!(errors(Profile::Std, &program("")).contains(&Code::VendorForm));
     let own = "FUNCTION F : INT VAR_INPUT n : INT; END_VAR VAR x : INT; p : POINTER TO INT; END_VAR p := ADR(x); IF n > 0 THEN F := F(n - 1); END_IF; END_FUNCTION
         PROGRAM Main F(3); END_PROGRAM";
-    assert_eq!(codes(V3, own), [Code::NotReferable]);
+    assert_eq!(errors(V3, own), [Code::NotReferable]);
 }

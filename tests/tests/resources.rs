@@ -1,13 +1,8 @@
 //! Several resources in one configuration (IEC 61131-3 reference §3.5, §10.1): globals, programs, tasks, addresses, retained values.
 
-use takt_base::{Profile, Severity};
-use takt_tests::plc::{Plc, compile_in, compile_st};
+use takt_base::Profile;
+use takt_tests::plc::{Plc, compile_in, error_codes};
 use takt_tests::timed::timed;
-
-fn codes(text: &str) -> Vec<&'static str> {
-    let diags = compile_st(text).diags;
-    diags.iter().filter(|d| d.severity == Severity::Error).map(|d| d.code.text()).collect()
-}
 
 fn check(plc: &Plc, wanted: &[(&str, &str)]) {
     for (path, want) in wanted {
@@ -104,7 +99,7 @@ fn s3_5_constants_of_resources() {
     check(&plc, &[("A.p.x", "3"), ("B.p.x", "4")]);
     let bound = units.replace("x : INT;", "x : INT; a : ARRAY [0..k] OF INT;");
     let wrong = text.replace(units, &bound);
-    assert_eq!(codes(&wrong), ["P2005"], "what a resource decides is no bound of an array");
+    assert_eq!(error_codes(&wrong), ["P2005"], "what a resource decides is no bound of an array");
 }
 
 #[test]
@@ -151,9 +146,9 @@ fn s3_7_addresses_and_values_of_each_resource() {
     let mut plc = Plc::new(&config(""));
     plc.scan(0).unwrap();
     check(&plc, &[("A.p.y", "5"), ("B.p.y", "41"), ("A.p.n", "5"), ("B.p.n", "1"), ("A.g", "0")]);
-    assert_eq!(codes(&config("p.n : INT := 1;")), ["P3081"], "several resources have it");
-    assert_eq!(codes(&config("g : INT := 1;")), ["P3081"], "several resources have it");
-    assert_eq!(codes(&config("C.g : INT := 1;")), ["P3081"]);
+    assert_eq!(error_codes(&config("p.n : INT := 1;")), ["P3081"], "several resources have it");
+    assert_eq!(error_codes(&config("g : INT := 1;")), ["P3081"], "several resources have it");
+    assert_eq!(error_codes(&config("C.g : INT := 1;")), ["P3081"]);
 }
 
 #[test]
@@ -195,21 +190,21 @@ fn s11_what_is_wrong_with_resources() {
         ("PROGRAM p : Q;", "PROGRAM p : Q;", "END_CONFIGURATION CONFIGURATION d RESOURCE z ON PLC END_RESOURCE", "P0012"),
     ] {
         let units = if a == own { unit } else { other };
-        assert_eq!(codes(&two(units, "", a, b, rest)), [want], "{a} | {b} | {rest}");
+        assert_eq!(error_codes(&two(units, "", a, b, rest)), [want], "{a} | {b} | {rest}");
     }
     assert_eq!(
-        codes(&two(unit, "VAR_GLOBAL a : INT; END_VAR", own, own, "")),
+        error_codes(&two(unit, "VAR_GLOBAL a : INT; END_VAR", own, own, "")),
         ["P1001"],
         "a global has the name of the resource"
     );
     // VAR_EXTERNAL names a global that is there, used or not.
     let idle = "PROGRAM P VAR_EXTERNAL g : INT; END_VAR END_PROGRAM";
-    assert_eq!(codes(&two(idle, "", own, "PROGRAM p : P;", "")), ["P1009"]);
+    assert_eq!(error_codes(&two(idle, "", own, "PROGRAM p : P;", "")), ["P1009"]);
     let tasks: String = (0..64).map(|i| format!("TASK t{i} (INTERVAL := T#1s); ")).collect();
     let many: String = (0..15).map(|i| format!("RESOURCE r{i} ON x {tasks} END_RESOURCE ")).collect();
-    assert_eq!(codes(&two(other, "", &tasks, "TASK t (INTERVAL := T#1s);", &many)), ["P4003"], "more than 1024 tasks");
+    assert_eq!(error_codes(&two(other, "", &tasks, "TASK t (INTERVAL := T#1s);", &many)), ["P4003"], "more than 1024 tasks");
     // A unit that no program of the resource reaches does not need its globals.
-    assert_eq!(codes(&two(unit, "", own, "PROGRAM p : Q;", "")), [""; 0]);
+    assert_eq!(error_codes(&two(unit, "", own, "PROGRAM p : Q;", "")), [""; 0]);
 }
 
 #[test]

@@ -1,13 +1,7 @@
 //! Tasks, function blocks with a task of their own, and connections (IEC 61131-3 reference §10.1 to §10.3), in virtual time.
 
-use takt_base::Severity;
-use takt_tests::plc::{Plc, compile_st};
+use takt_tests::plc::{Plc, compile_st, error_codes};
 use takt_tests::timed::timed;
-
-fn codes(text: &str) -> Vec<&'static str> {
-    let diags = compile_st(text).diags;
-    diags.iter().filter(|d| d.severity == Severity::Error).map(|d| d.code.text()).collect()
-}
 
 /// A configuration with one resource.
 fn plant(units: &str, globals: &str, inner: &str) -> String {
@@ -41,7 +35,7 @@ fn s10_1_single_is_an_output_of_a_program() {
         [("a.n", "P4003"), ("a.zz", "P3081"), ("b.q", "P1003"), ("g", "P4003"), ("TRUE", "P4003"), ("FALSE", "P4003")]
     {
         let inner = format!("TASK t (SINGLE := {single}); PROGRAM a WITH t : P;");
-        assert_eq!(codes(&plant(P, "g : INT;", &inner)), [want], "{single}");
+        assert_eq!(error_codes(&plant(P, "g : INT;", &inner)), [want], "{single}");
     }
 }
 
@@ -64,9 +58,9 @@ fn s10_1_parameters_in_any_order_and_constant_intervals() {
     let never = plant(P, "g : INT;", "TASK t (SINGLE := FALSE, INTERVAL := T#4ms); PROGRAM p WITH t : P;");
     assert_eq!(timed(&never, &[], &["p.n"], 5), ["t@0 1", "t@4 2"], "FALSE is as good as none");
     let variable = plant(P, "k : TIME := T#2ms;", "TASK t (INTERVAL := k); PROGRAM p WITH t : P;");
-    assert_eq!(codes(&variable), ["P2005"], "a period is a constant");
+    assert_eq!(error_codes(&variable), ["P2005"], "a period is a constant");
     let multi = plant(P, "a : BOOL; b : BOOL;", "TASK t (MULTI := [a, b], PRIORITY := 1); PROGRAM p WITH t : P;");
-    assert_eq!(codes(&multi), ["P0012"]);
+    assert_eq!(error_codes(&multi), ["P0012"]);
 }
 
 #[test]
@@ -194,7 +188,7 @@ fn s10_2_what_can_not_be_bound() {
         ("f WITH", "P0010"),
     ] {
         let text = plant(units, "x : INT;", &format!("TASK t (INTERVAL := T#1s); PROGRAM p : Main ({connections});"));
-        assert_eq!(codes(&text), [want], "{connections}");
+        assert_eq!(error_codes(&text), [want], "{connections}");
     }
 }
 
@@ -236,7 +230,7 @@ fn s10_1_wrong_connections() {
             "gi : INT; gd : LREAL; END_VAR VAR_GLOBAL CONSTANT k : INT := 1;",
             &format!("PROGRAM p : P ({connections});"),
         );
-        assert_eq!(codes(&text), [want], "{connections}");
+        assert_eq!(error_codes(&text), [want], "{connections}");
     }
 }
 

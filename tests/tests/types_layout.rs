@@ -1,21 +1,12 @@
 //! Parts of words, relative addresses, OVERLAP, UNION, string units and other forms of types (language reference §2.5 to §2.11), on both
 //! engines.
 
-use takt_base::{Code, Profile, Severity};
+use takt_base::{Code, Profile};
 use takt_image::Trap;
-use takt_tests::plc::{Plc, check_in, compile_in};
+use takt_tests::plc::{Plc, check_in, check_profile, errors};
 
 fn run(profile: Profile, text: &str, expected: &[(&str, &str)]) {
-    let mut plc = Plc::new_in(profile, text);
-    plc.scans(1);
-    let found: Vec<_> = expected.iter().map(|(name, _)| (*name, plc.get(name))).collect();
-    let found: Vec<_> = found.iter().map(|(name, value)| (*name, value.as_str())).collect();
-    assert_eq!(found, expected, "\n{text}");
-}
-
-fn codes(profile: Profile, text: &str) -> Vec<Code> {
-    let c = compile_in(profile, text);
-    c.diags.iter().filter(|d| d.severity == Severity::Error).map(|d| d.code).collect()
+    check_profile(profile, text, 1, expected);
 }
 
 /// §2.11.
@@ -39,7 +30,7 @@ fn parts_of_integers() {
         END_PROGRAM",
         &[("Main.i", "-32767"), ("Main.u", "2147483648"), ("Main.w", "32776"), ("Main.b", "TRUE"), ("Main.s", "-128"), ("Main.c", "TRUE")],
     );
-    let one = |body: &str| codes(Profile::Std, &format!("PROGRAM p VAR i : INT; w : WORD; n : INT; END_VAR {body} END_PROGRAM"));
+    let one = |body: &str| errors(Profile::Std, &format!("PROGRAM p VAR i : INT; w : WORD; n : INT; END_VAR {body} END_PROGRAM"));
     assert_eq!(one("i.0 := TRUE;"), [Code::BadOperand]);
     assert_eq!(one("w.16 := TRUE;"), [Code::IndexOutOfRange]);
     assert_eq!(one("w.n := TRUE;"), [Code::UnknownMember]);
@@ -94,7 +85,7 @@ fn unions() {
     );
     let text = "TYPE U : UNION d : DWORD; p : POINTER TO INT; END_UNION END_TYPE PROGRAM Main VAR u : U; n : INT; END_VAR u.d := 5; n := u.p^; END_PROGRAM";
     assert_eq!(Plc::new_in(Profile::Codesys, text).scan(0).err().map(|f| f.trap), Some(Trap::WildPointer));
-    assert_eq!(codes(Profile::Std, "TYPE U : UNION d : DWORD; END_UNION; END_TYPE"), [Code::VendorForm]);
+    assert_eq!(errors(Profile::Std, "TYPE U : UNION d : DWORD; END_UNION; END_TYPE"), [Code::VendorForm]);
 }
 
 #[test]
@@ -110,13 +101,13 @@ fn layouts_that_are_wrong() {
         ("a AT %B0 : BYTE; a AT %B1 : BYTE;", Code::DuplicateName),
         ("a AT %B4000000000 : BYTE;", Code::TypeTooLarge),
     ] {
-        assert_eq!(codes(Profile::Std, &format!("TYPE T : STRUCT {members} END_STRUCT; END_TYPE")), [code], "{members}");
+        assert_eq!(errors(Profile::Std, &format!("TYPE T : STRUCT {members} END_STRUCT; END_TYPE")), [code], "{members}");
     }
     let overlap = "TYPE T : STRUCT OVERLAP a AT %B0 : UINT := 5; END_STRUCT; END_TYPE";
-    assert_eq!(codes(Profile::Std, overlap), [Code::BadInitializer]);
+    assert_eq!(errors(Profile::Std, overlap), [Code::BadInitializer]);
     let init = "TYPE T : STRUCT OVERLAP a AT %B0 : UINT; b AT %B0 : UINT; END_STRUCT; END_TYPE PROGRAM p VAR t : T := (a := 1); END_VAR END_PROGRAM";
-    assert_eq!(codes(Profile::Std, init), [Code::BadInitializer]);
-    assert_eq!(codes(Profile::Std, "PROGRAM p VAR x AT %B2 : BYTE; END_VAR END_PROGRAM"), [Code::BadAddress]);
+    assert_eq!(errors(Profile::Std, init), [Code::BadInitializer]);
+    assert_eq!(errors(Profile::Std, "PROGRAM p VAR x AT %B2 : BYTE; END_VAR END_PROGRAM"), [Code::BadAddress]);
 }
 
 /// §2.9: the vendors index bytes from 0.

@@ -1,7 +1,7 @@
 //! Programs as instances, VAR_STAT, arguments of instances, hierarchical addresses (language reference §3.1, §3.2, §3.6, §4.3, §16).
 
-use takt_base::{Code, Profile, Severity};
-use takt_tests::plc::{Plc, compile_in, compile_st};
+use takt_base::{Code, Profile};
+use takt_tests::plc::{Plc, compile_st, errors};
 
 fn codesys(text: &str) -> Plc {
     Plc::new_in(Profile::Codesys, text)
@@ -11,11 +11,6 @@ fn check(plc: &Plc, values: &[(&str, &str)]) {
     for (name, value) in values {
         assert_eq!(plc.get(name), *value, "{name}");
     }
-}
-
-fn errors(profile: Profile, text: &str) -> Vec<Code> {
-    let c = compile_in(profile, text);
-    c.diags.iter().filter(|d| d.severity == Severity::Error).map(|d| d.code).collect()
 }
 
 #[test]

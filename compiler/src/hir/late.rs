@@ -89,7 +89,7 @@ impl Builder<'_> {
 
     /// Notes an expression for later; false if it must be constant.
     pub fn put_off(&mut self, e: &ast::Expr, ty: TypeId) -> bool {
-        let Some(found) = self.late_now.as_mut().filter(|f| !f.references_only || is_reference(e)) else { return false };
+        let Some(found) = self.late_now.as_mut().filter(|f| !f.references_only || e.is_call_of("REF")) else { return false };
         found.list.push(Late { path: found.path.clone(), ty, value: e.clone() });
         true
     }
@@ -128,7 +128,7 @@ impl Builder<'_> {
 
     /// True for an expression that only the running program can evaluate.
     pub fn is_late(&self, e: &ast::Expr) -> bool {
-        if self.late_now.as_ref().is_none_or(|f| f.references_only && !is_reference(e)) {
+        if self.late_now.as_ref().is_none_or(|f| f.references_only && !e.is_call_of("REF")) {
             return false;
         }
         match &e.kind {
@@ -268,9 +268,4 @@ impl Builder<'_> {
         }
         out
     }
-}
-
-/// `REF(v)`.
-fn is_reference(e: &ast::Expr) -> bool {
-    matches!(&e.kind, E::Call { callee, .. } if matches!(&callee.kind, E::Name(n) if n.is("REF")))
 }

@@ -64,7 +64,7 @@ impl Builder<'_> {
 
     /// The value of a CONSTANT or a part of it.
     pub fn constant_at(&self, place: &Place) -> Option<Const> {
-        let mut value = match place.base {
+        let value = match place.base {
             Base::Value(_) => return None,
             Base::Global(id) if self.is_undecided(id) => return None,
             Base::Global(id) => Some(&self.hir.globals[id]).filter(|g| g.constant).map(|g| &g.init)?,
@@ -75,8 +75,12 @@ impl Builder<'_> {
             Base::This => return self.member_constant(place),
             Base::Image(_) => return None,
         };
-        let mut ty = self.base_type(&place.base)?;
-        for step in &place.path {
+        self.constant_part(value, self.base_type(&place.base)?, &place.path)
+    }
+
+    /// The part of a constant of type `ty` to which the steps lead.
+    pub(super) fn constant_part(&self, mut value: &Const, mut ty: TypeId, path: &[Step]) -> Option<Const> {
+        for step in path {
             let (index, next) = self.step_into(ty, step)?;
             ty = next;
             value = match value {

@@ -238,11 +238,7 @@ impl Builder<'_> {
 
     /// The value of a REFERENCE TO of type `ty` that is bound to what stands there.
     pub(super) fn bound_value(&mut self, e: &ast::Expr, ty: TypeId) -> Expr {
-        let is_ref = |e: &ast::Expr| match &e.kind {
-            ast::ExprKind::Call { callee, .. } => matches!(&callee.kind, ast::ExprKind::Name(n) if n.is("REF") || n.is("ADR")),
-            _ => false,
-        };
-        if matches!(e.kind, ast::ExprKind::Null) || is_ref(e) {
+        if matches!(e.kind, ast::ExprKind::Null) || e.is_call_of("REF") || e.is_call_of("ADR") {
             return self.value(e, ty);
         }
         let o = match self.referable(e) {

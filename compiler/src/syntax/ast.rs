@@ -478,6 +478,13 @@ pub struct Expr {
     pub span: Span,
 }
 
+impl Expr {
+    /// True for `name(..)`.
+    pub fn is_call_of(&self, name: &str) -> bool {
+        matches!(&self.kind, ExprKind::Call { callee, .. } if matches!(&callee.kind, ExprKind::Name(n) if n.is(name)))
+    }
+}
+
 #[derive(Clone, Debug)]
 pub enum ExprKind {
     Literal(Literal),

@@ -122,7 +122,7 @@ impl Kw {
                 | This
                 | Super
         );
-        let types = matches!(self, Ldate | Ltod | LtimeOfDay | Ldt | LdateAndTime | Ltime | Char | Wchar);
+        let types = self.is_new_type() || matches!(self, LtimeOfDay | LdateAndTime | Ltime);
         objects || types || matches!(self, Null | Ref | RefTo | Overlap | Continue)
     }
     /// True for a reserved word that the vendors also take as a name, where it can mean nothing else.

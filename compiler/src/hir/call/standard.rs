@@ -10,7 +10,7 @@ use takt_base::{Code, Diag, Span};
 use takt_image::types::Type;
 use takt_image::{Elementary, Generic, TypeId, natives::MAX_SLOTS};
 use takt_stdlib::catalog::{Function, Intrinsic, Lowering, Pattern};
-use takt_stdlib::{ConversionType, Found};
+use takt_stdlib::{ConversionType, Found, vendor};
 
 /// Most inputs of an extensible function.
 const INPUTS_MAX: usize = 64;
@@ -98,9 +98,7 @@ impl Builder<'_> {
             Found::Conversion { .. } => formal.is("IN").then_some(0),
             Found::Function { function, .. } => {
                 let fixed = function.params.iter().position(|p| formal.is(p.name));
-                let fixed = fixed.or_else(|| edition_2(function, formal));
-                let fixed =
-                    fixed.or_else(|| self.profile(formal.span).is_codesys().then(|| codesys_pin(function, formal)).flatten());
+                let fixed = fixed.or_else(|| vendor::input(function.name, &formal.key(), self.profile(formal.span)));
                 fixed.or_else(|| function.extensible.then(|| counted(function, formal)).flatten())
             }
         };
@@ -448,26 +446,6 @@ fn arity(found: Found) -> (usize, usize) {
         Found::Conversion { .. } => (1, 1),
         Found::Function { function: f, .. } => (f.params.len(), if f.extensible { INPUTS_MAX } else { f.params.len() }),
     }
-}
-
-/// Edition 2 calls the inputs of CONCAT_DATE_TOD IN1 and IN2.
-fn edition_2(f: &Function, formal: &ast::Name) -> Option<usize> {
-    let names = ["IN1", "IN2"];
-    names.iter().position(|name| formal.is(name)).filter(|_| f.name.starts_with("CONCAT_DATE_"))
-}
-
-/// The inputs of string functions as CODESYS calls them.
-fn codesys_pin(f: &Function, formal: &ast::Name) -> Option<usize> {
-    let names: &[&str] = match f.name {
-        "LEN" => &["STR"],
-        "LEFT" | "RIGHT" => &["STR", "SIZE"],
-        "MID" | "DELETE" => &["STR", "LEN", "POS"],
-        "CONCAT" | "FIND" => &["STR1", "STR2"],
-        "INSERT" => &["STR1", "STR2", "POS"],
-        "REPLACE" => &["STR1", "STR2", "L", "P"],
-        _ => return None,
-    };
-    names.iter().position(|name| formal.is(name))
 }
 
 /// Position of IN3, IN4, ... behind the parameters that are listed.

@@ -71,17 +71,7 @@ impl Builder<'_> {
         if fixed != Some(&ReadOnly::Constant) {
             return None;
         }
-        let (mut value, mut ty) = (&var.init, var.ty);
-        for step in rest {
-            let (index, next) = self.step_into(ty, step)?;
-            ty = next;
-            value = match value {
-                Const::Aggregate(parts) => parts.get(index)?,
-                Const::Zero => &Const::Zero,
-                _ => return None,
-            };
-        }
-        Some(value.clone())
+        self.constant_part(&var.init, var.ty, rest)
     }
 
     /// `SUPER()` and `THIS()`: the body of the base, or of the running instance. `None` for other callees.

@@ -70,6 +70,8 @@ pub struct Program<'h> {
     data: Data,
     /// What names mean in what is lowered now.
     view: View,
+    /// Its number, once one of `views` is entered.
+    entered: Option<usize>,
     views: Vec<View>,
     /// Units that can be entered again while they run.
     recursive: IndexVec<PouId, bool>,
@@ -127,6 +129,7 @@ impl<'h> Program<'h> {
             lines,
             data,
             view,
+            entered: None,
             views: Vec::new(),
             recursive,
             natives: IndexVec::new(),

@@ -30,12 +30,9 @@ enum Job {
 /// Lowers all units into an empty module: first as they are, then as resources see them, then the guards.
 pub fn units(program: &mut Program<'_>, module: &mut Module) {
     let jobs = plan(program);
-    let mut entered = None;
     for job in jobs {
         let (Job::Unit { view, .. } | Job::Guard { view, .. }) = job;
-        if entered.replace(view) != Some(view) {
-            program.enter(view);
-        }
+        program.enter(view);
         let function = match job {
             Job::Unit { pou, view } => {
                 let mut function = unit::function(program, pou);
@@ -116,7 +113,9 @@ fn guard(program: &mut Program<'_>, id: PouId, view: usize) -> Function {
 impl Program<'_> {
     /// From here on names mean what they do in a view.
     pub fn enter(&mut self, view: usize) {
-        self.view = self.views[view].clone();
+        if self.entered.replace(view) != Some(view) {
+            self.view = self.views[view].clone();
+        }
     }
 
     /// From here on names mean what they do in a resource.

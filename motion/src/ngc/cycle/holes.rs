@@ -143,23 +143,25 @@ impl Cycle<'_, '_, '_> {
         Ok(())
     }
 
-    fn bore_and_stop(&mut self, motion: Motion) -> Done {
+    /// To the bottom, where the spindle stops. Which way it turned.
+    fn bore(&mut self, motion: Motion) -> Result<Direction, Box<Diag>> {
         let dwell = self.dwell_word(motion)?;
         let way = self.turning(motion, None)?;
         self.feed_to(self.bottom);
         self.run.emit(Canon::Dwell(dwell));
         self.run.emit(Canon::StopSpindleTurning);
+        Ok(way)
+    }
+
+    fn bore_and_stop(&mut self, motion: Motion) -> Done {
+        let way = self.bore(motion)?;
         self.traverse_to(self.clear);
         self.start(way);
         Ok(())
     }
 
     fn bore_by_hand(&mut self, motion: Motion) -> Done {
-        let dwell = self.dwell_word(motion)?;
-        let way = self.turning(motion, None)?;
-        self.feed_to(self.bottom);
-        self.run.emit(Canon::Dwell(dwell));
-        self.run.emit(Canon::StopSpindleTurning);
+        let way = self.bore(motion)?;
         self.run.emit(Canon::ProgramStop);
         self.start(way);
         Ok(())
