@@ -61,6 +61,30 @@ pub struct Source {
     /// Dialect that it is written in.
     pub profile: Profile,
     line_starts: Vec<u32>,
+    /// All that is known of a file that is not held whole, by place.
+    excerpts: Vec<Excerpt>,
+}
+
+/// One line of a file that is not held whole.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Excerpt {
+    /// Byte of the file at which the line starts.
+    pub start: u32,
+    /// Its number, from 1.
+    pub line: u32,
+    /// Its text without the line end.
+    pub text: String,
+    /// True if its bytes have been read as Latin-1: a byte of the file is a character.
+    pub latin1: bool,
+}
+
+impl Excerpt {
+    /// Place in the text of a byte of the file.
+    fn place(&self, offset: u32) -> usize {
+        let n = offset.saturating_sub(self.start) as usize;
+        let cut = if self.latin1 { self.text.char_indices().nth(n).map_or(self.text.len(), |(i, _)| i) } else { n };
+        self.text.floor_char_boundary(cut)
+    }
 }
 
 /// All files of one compilation.
@@ -97,7 +121,15 @@ impl Sources {
 
     fn push(&mut self, name: String, (text, latin1): (String, bool), library: bool) -> SourceId {
         let line_starts = std::iter::once(0).chain(line_ends(&text)).collect();
-        self.files.push(Source { name, text, library, latin1, profile: Profile::Std, line_starts })
+        self.files.push(Source { name, text, library, latin1, profile: Profile::Std, line_starts, excerpts: Vec::new() })
+    }
+
+    /// Adds lines of a file that was added with an empty text, as it is not held whole. Messages show these lines alone.
+    pub fn add_excerpt(&mut self, id: SourceId, excerpt: Excerpt) {
+        let excerpts = &mut self.files[id].excerpts;
+        if let Err(i) = excerpts.binary_search_by_key(&excerpt.start, |e| e.start) {
+            excerpts.insert(i, excerpt);
+        }
     }
 
     /// Says which dialect a file is written in; [`Profile::Std`] until then.
@@ -117,7 +149,11 @@ impl Sources {
 
     /// The text that a span covers; empty if the span is not of this text.
     pub fn text(&self, span: Span) -> &str {
-        self.get(span.source).text.get(span.start as usize..span.end as usize).unwrap_or("")
+        let source = self.get(span.source);
+        match source.excerpt(span.start) {
+            Some(e) => e.text.get(e.place(span.start)..e.place(span.end)).unwrap_or(""),
+            None => source.text.get(span.start as usize..span.end as usize).unwrap_or(""),
+        }
     }
 
     /// Line and column of a byte offset.
@@ -129,6 +165,9 @@ impl Sources {
 impl Source {
     /// Line and column of a byte offset; an offset past the end counts as the end.
     pub fn line_col(&self, offset: u32) -> LineCol {
+        if let Some(e) = self.excerpt(offset) {
+            return LineCol { line: e.line, column: e.text[..e.place(offset)].chars().count() as u32 + 1 };
+        }
         let offset = (offset as usize).min(self.text.len());
         let line = self.line_starts.partition_point(|&s| s as usize <= offset);
         let start = self.line_starts[line - 1] as usize;
@@ -139,6 +178,11 @@ impl Source {
         LineCol { line: line as u32, column: self.text[start..cut].chars().count() as u32 + 1 }
     }
 
+    /// The line around a byte of a file that is not held whole.
+    fn excerpt(&self, offset: u32) -> Option<&Excerpt> {
+        self.excerpts[..self.excerpts.partition_point(|e| e.start <= offset)].last()
+    }
+
     /// Byte offset at which a line (from 1) begins; the end of the text if there is no such line.
     pub fn line_start(&self, line: u32) -> usize {
         self.line_starts.get((line as usize).wrapping_sub(1)).map_or(self.text.len(), |&s| s as usize)
@@ -146,6 +190,9 @@ impl Source {
 
     /// Text of a line (from 1) without its line end; empty if there is no such line.
     pub fn line(&self, line: u32) -> &str {
+        if let Some(e) = self.excerpts.iter().find(|e| e.line == line) {
+            return &e.text;
+        }
         let Some(&start) = self.line_starts.get((line as usize).wrapping_sub(1)) else { return "" };
         let end = self.line_starts.get(line as usize).map_or(self.text.len(), |&e| e as usize);
         self.text[start as usize..end].trim_end_matches(['\n', '\r', '\x0c'])
@@ -185,6 +232,18 @@ mod tests {
         assert_eq!([at(0), at(1), at(4), at(6), at(9), at(11)], [(1, 1), (1, 2), (2, 1), (2, 2), (2, 3), (3, 1)]);
         assert_eq!([s.get(id).line(1), s.get(id).line(2), s.get(id).line(3)], ["ab", "ä€x", "z"]);
         assert_eq!([0, 1, 2, 3, 4, 9].map(|l| s.get(id).line_start(l)), [13, 0, 4, 11, 13, 13]);
+    }
+
+    #[test]
+    fn of_a_large_file_single_lines_are_known() {
+        let mut s = Sources::new();
+        let id = s.add("big.nc", "");
+        s.add_excerpt(id, Excerpt { start: 5000, line: 310, text: "G1 (ä) X1".into(), latin1: true });
+        s.add_excerpt(id, Excerpt { start: 900, line: 70, text: "(ä) G1".into(), latin1: false });
+        let at = |o| (s.line_col(id, o).line, s.line_col(id, o).column);
+        assert_eq!([at(5007), at(5009), at(905), at(999)], [(310, 8), (310, 10), (70, 5), (70, 7)]);
+        assert_eq!([s.text(Span::new(id, 5007, 5009)), s.text(Span::new(id, 905, 907))], ["X1", "G1"]);
+        assert_eq!([s.get(id).line(310), s.get(id).line(70), s.get(id).line(3)], ["G1 (ä) X1", "(ä) G1", ""]);
     }
 
     #[test]

@@ -194,6 +194,11 @@ codes! {
     N0026 SpindleStopped "the code needs a turning spindle";
     N0027 NotInThisMode "the code is not allowed in the mode that is in force";
     N0028 ProgramAborted "the program stops itself";
+    N0040 FileChanged "the part program has changed while it runs";
+    N0041 FileUnreadable "the part program can't be read any further";
+    N0042 RowTooLong "the row is too long for a part program";
+    N0043 ProgramTooLarge "the part program needs more memory than it may have";
+    N0044 NoSuchLine "the part program has no such line";
 
     // --- C project and image files ---
     C0001 BadProjectFile "the project file can't be used";

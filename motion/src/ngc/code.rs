@@ -57,12 +57,14 @@ pub enum CommentKind {
     Abort,
 }
 
-/// A comment: bytes of its text.
+/// A comment.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Comment {
     /// Its meaning.
     pub kind: CommentKind,
-    /// The text, without the keyword.
+    /// Its text without the keyword, into [`Code::texts`].
+    pub text: Slice,
+    /// Bytes of the file for that.
     pub place: (u32, u32),
 }
 
@@ -96,6 +98,8 @@ pub struct Code {
     pub settings: Vec<Setting>,
     /// Comments of all rows.
     pub comments: Vec<Comment>,
+    /// Texts of the comments.
+    pub texts: String,
     /// Postfix code.
     pub ops: Vec<Op>,
     /// Bytes of the text of each op.
@@ -110,7 +114,7 @@ pub struct Code {
 
 /// A length of the arena.
 #[derive(Clone, Copy, Debug)]
-pub struct Mark([usize; 5]);
+pub struct Mark([usize; 6]);
 
 impl Code {
     /// Adds an op.
@@ -121,23 +125,39 @@ impl Code {
 
     /// The present length.
     pub fn mark(&self) -> Mark {
-        Mark([self.words.len(), self.settings.len(), self.comments.len(), self.ops.len(), self.args.len()])
+        Mark([self.words.len(), self.settings.len(), self.comments.len(), self.ops.len(), self.args.len(), self.texts.len()])
     }
 
     /// Forgets what came behind `mark`.
     pub fn truncate(&mut self, mark: Mark) {
-        let [words, settings, comments, ops, args] = mark.0;
+        let [words, settings, comments, ops, args, texts] = mark.0;
         self.words.truncate(words);
         self.settings.truncate(settings);
         self.comments.truncate(comments);
         self.ops.truncate(ops);
         self.places.truncate(ops);
         self.args.truncate(args);
+        self.texts.truncate(texts);
+    }
+
+    /// Adds the text of a comment: UTF-8, or else Latin-1.
+    pub fn add_text(&mut self, bytes: &[u8]) -> Slice {
+        let start = self.texts.len() as u32;
+        match std::str::from_utf8(bytes) {
+            Ok(text) => self.texts.push_str(text),
+            Err(_) => self.texts.extend(bytes.iter().map(|&b| char::from(b))),
+        }
+        Slice { start, end: self.texts.len() as u32 }
+    }
+
+    /// The text of a comment.
+    pub fn text(&self, slice: Slice) -> &str {
+        self.texts.get(slice.range()).unwrap_or("")
     }
 
     /// The length of the rows that are kept.
     pub fn kept_mark(&self) -> Mark {
-        self.kept.unwrap_or(Mark([0; 5]))
+        self.kept.unwrap_or(Mark([0; 6]))
     }
 
     /// Keeps all rows read so far.
@@ -151,5 +171,7 @@ impl Code {
             + self.settings.len() * size_of::<Setting>()
             + self.ops.len() * (size_of::<Op>() + 8)
             + self.args.len() * size_of::<Value>()
+            + self.comments.len() * size_of::<Comment>()
+            + self.texts.len()
     }
 }

@@ -1,5 +1,6 @@
 //! What the interpreter asks of its surroundings: files of subroutines, variables of the PLC program.
 
+use super::text::Text;
 use std::sync::Arc;
 use takt_base::SourceId;
 
@@ -7,6 +8,10 @@ use takt_base::SourceId;
 pub trait Host: Send + Sync {
     /// The file of subroutine `name`, which has no path and no extension.
     fn open(&self, name: &str) -> Option<(SourceId, Arc<str>)>;
+    /// The same for a file of any size; what the interpreter calls.
+    fn open_text(&self, name: &str) -> Option<(SourceId, Text)> {
+        self.open(name).map(|(source, text)| (source, text.into()))
+    }
     /// Value of a named parameter such as `_plc_speed` or `_ini[axis]max`.
     fn value(&self, _name: &str) -> Option<f64> {
         None
@@ -26,9 +31,9 @@ impl HostRef {
     pub fn new(host: Arc<dyn Host>) -> Self {
         HostRef(Some(host))
     }
-    /// See [`Host::open`].
-    pub fn open(&self, name: &str) -> Option<(SourceId, Arc<str>)> {
-        self.0.as_ref()?.open(name)
+    /// See [`Host::open_text`].
+    pub fn open_text(&self, name: &str) -> Option<(SourceId, Text)> {
+        self.0.as_ref()?.open_text(name)
     }
     /// See [`Host::value`].
     pub fn value(&self, name: &str) -> Option<f64> {

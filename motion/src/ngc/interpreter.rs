@@ -12,10 +12,12 @@ use super::fault::Fault;
 use super::flow::files::Files;
 use super::flow::owords::After;
 use super::flow::{Flow, Next};
+use super::lines::trimmed;
 use super::modal::Modal;
 use super::options::Options;
 use super::request::Request;
 use super::state::State;
+use super::text::Text;
 use crate::canon::{Canon, FeedReference, ProgramEnd, Step};
 use std::collections::{HashSet, VecDeque};
 use std::sync::Arc;
@@ -48,7 +50,7 @@ const DIAGS_MAX: usize = 1_000_000;
 
 /// All errors and warnings of a program, in the order in which it runs up to M2, M30 or a closing `%`, each once. Goes on behind a wrong
 /// block with the state that it would have left. Rows that are not executed are read too.
-pub fn check(source: SourceId, text: impl Into<Arc<str>>, options: Options) -> Vec<Diag> {
+pub fn check(source: SourceId, text: impl Into<Text>, options: Options) -> Vec<Diag> {
     let mut interpreter = Interpreter::new(source, text, options);
     interpreter.once = true;
     interpreter.flow.thorough = true;
@@ -65,7 +67,7 @@ pub fn check(source: SourceId, text: impl Into<Arc<str>>, options: Options) -> V
 
 impl Interpreter {
     /// At the start of `text`, which is file `source` of the diagnostics.
-    pub fn new(source: SourceId, text: impl Into<Arc<str>>, options: Options) -> Self {
+    pub fn new(source: SourceId, text: impl Into<Text>, options: Options) -> Self {
         let options = Arc::new(options);
         let flow = Flow::new(Files::new(source, text.into(), options.style));
         let state = State::new(options.clone());
@@ -99,7 +101,26 @@ impl Interpreter {
 
     /// Goes on behind an error with the next row (`rs274 -n 0`).
     pub fn go_on(&mut self) {
-        self.ended = false;
+        self.ended = self.flow.files.broken;
+    }
+
+    /// Goes to line `line`, from 1: nothing before it is executed (block search). The index of lines makes it quick.
+    ///
+    /// # Errors
+    /// The program has fewer lines, or can't be read.
+    pub fn seek(&mut self, line: u32) -> Result<(), Box<Diag>> {
+        self.flow.leave_all();
+        self.state.params.leave_all();
+        (self.opened, self.percent) = (true, true);
+        let source = self.flow.files.source();
+        if self.flow.files.seek(line.max(1)).map_err(|fault| Box::new(fault.diag(source)))? {
+            return Ok(());
+        }
+        self.ended = true;
+        let at = self.flow.files.len();
+        let span = Span::new(source, at.saturating_sub(1), at);
+        let diag = Diag::new(Code::NoSuchLine, span, "the last line").message(format!("the part program has no line {line}"));
+        Err(Box::new(diag.help("choose a line of the program")))
     }
 
     /// Reads one row: its commands go to the queue, what is wrong to `diags`.
@@ -115,6 +136,7 @@ impl Interpreter {
             }
             Next::End => self.end_of_text(),
         }
+        self.ended |= self.flow.files.broken;
     }
 
     fn fail(&mut self, fault: Fault) {
@@ -174,7 +196,7 @@ impl Interpreter {
             return;
         }
         let mut out = Out { queue: &mut self.queue, diags: &mut self.diags, block: self.block, line: row.line, n: row.n };
-        let then = execute::execute(&self.request, row, self.flow.files.text_ref(), &self.flow.code, &mut self.state, &mut out);
+        let then = execute::execute(&self.request, row, &self.flow.code, &mut self.state, &mut out);
         if self.diags.len() > diags_before && self.failed_now(diags_before) {
             if !self.state.options.drop_in {
                 self.queue.truncate(mark);
@@ -242,7 +264,7 @@ impl Interpreter {
 
     /// A line with `%`: before the first block it opens the program, later it ends it.
     fn percent(&mut self, start: usize, end: usize) {
-        if self.flow.files.text_ref()[start..end].trim_matches([' ', '\t']) != "%" {
+        if trimmed(self.flow.files.bytes(start..end)) != b"%" {
             let span = Span::new(self.flow.files.source(), start, end);
             let diag = Diag::new(Code::BadCharacter, span, "text beside `%`").help("put `%` on a line of its own");
             self.diags.push(diag);
@@ -264,7 +286,7 @@ impl Interpreter {
     fn end_of_text(&mut self) {
         if self.flow.depth() > 0 || self.flow.block_is_open() {
             self.ended = true;
-            let at = self.flow.files.text_ref().len();
+            let at = self.flow.files.len();
             let span = Span::new(self.flow.files.source(), at.saturating_sub(1), at);
             let help = "end it with endsub, endif, endwhile, endrepeat or M99";
             self.diags.push(Diag::new(Code::BadFlow, span, "the file ends inside of a subroutine or block").help(help));
@@ -272,7 +294,7 @@ impl Interpreter {
         }
         if self.state.options.drop_in {
             self.ended = true;
-            let at = self.flow.files.text_ref().len();
+            let at = self.flow.files.len();
             let span = Span::new(self.flow.files.source(), at.saturating_sub(1), at);
             let diag = Diag::new(Code::MissingWord, span, "the file ends without M2, M30 or `%`");
             self.diags.push(diag.help("write M2 in the last row"));

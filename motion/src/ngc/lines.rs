@@ -3,6 +3,7 @@
 //! RS274/NGC ends a block at the end of the line and starts a comment at `;`. In the style of older sources `;` ends the block and
 //! several may share a line (PC-05, R1-33). A `;` with only blanks behind it means the same in both: an empty comment, or an end.
 
+use super::text::{Trouble, View};
 use std::ops::Range;
 
 /// What `;` means.
@@ -38,6 +39,16 @@ pub struct Place {
 }
 
 impl Place {
+    /// The start of line `line`, which is byte `start`.
+    pub fn at_line(line: u32, start: usize) -> Self {
+        Place { rest: (start, start), next: start, line: line.saturating_sub(1) }
+    }
+
+    /// Byte at which the next line starts.
+    pub fn next(self) -> usize {
+        self.next
+    }
+
     /// A number that no other place of the text has.
     pub fn key(self) -> u64 {
         if self.rest.0 < self.rest.1 { self.rest.0 as u64 } else { self.next as u64 }
@@ -53,26 +64,32 @@ pub struct Lines {
 }
 
 impl Lines {
-    /// At the start of `text`.
-    pub fn new(text: &str, style: Style) -> Self {
+    /// At the start of the text.
+    pub fn new(view: &mut View, style: Style) -> Self {
         let semicolon = match style {
             Style::Ngc => false,
             Style::Semicolon => true,
-            Style::Auto => ends_with_semicolons(text),
+            // A file that can't be read says so when its rows are read.
+            Style::Auto => ends_with_semicolons(view).unwrap_or(false),
         };
         Lines { semicolon, place: Place::default() }
     }
 
-    /// The next piece that is not blank. `text` is always the one given to [`Lines::new`].
-    pub fn next(&mut self, text: &str) -> Option<Piece> {
+    /// The next piece that is not blank; its bytes are held. The text is always the one given to [`Lines::new`].
+    ///
+    /// # Errors
+    /// The file can't be read on.
+    pub fn next(&mut self, view: &mut View) -> Result<Option<Piece>, Trouble> {
         loop {
             while self.place.rest.0 < self.place.rest.1 {
-                let piece = self.cut(text);
-                if !is_blank(&text[piece.clone()]) {
-                    return Some(Piece { range: piece, line: self.place.line });
+                let piece = self.cut(view)?;
+                if !is_blank(view.bytes(piece.clone())) {
+                    return Ok(Some(Piece { range: piece, line: self.place.line }));
                 }
             }
-            self.advance(text)?;
+            if !self.advance(view)? {
+                return Ok(None);
+            }
         }
     }
 
@@ -81,92 +98,91 @@ impl Lines {
         self.place.line
     }
 
-    fn advance(&mut self, text: &str) -> Option<()> {
+    fn advance(&mut self, view: &mut View) -> Result<bool, Trouble> {
         let place = &mut self.place;
-        if place.next >= text.len() {
-            return None;
-        }
-        let (line, next) = line_at(text, place.next);
+        let Some((line, next)) = view.line(place.next)? else { return Ok(false) };
         place.rest = (line.start, line.end);
         place.next = next;
         place.line = place.line.saturating_add(1);
-        Some(())
+        view.text.mark(place.line, next);
+        Ok(true)
     }
 
-    fn cut(&mut self, text: &str) -> Range<usize> {
+    fn cut(&mut self, view: &mut View) -> Result<Range<usize>, Trouble> {
         let (start, end) = self.place.rest;
-        match self.semicolon.then(|| terminator(&text[start..end])).flatten() {
+        view.hold(start..end)?;
+        match self.semicolon.then(|| terminator(view.bytes(start..end))).flatten() {
             Some(at) => {
                 self.place.rest = (start + at + 1, end);
-                start..start + at
+                Ok(start..start + at)
             }
             None => {
                 self.place.rest = (end, end);
-                start..end
+                Ok(start..end)
             }
-        }
-    }
-}
-
-/// The line that starts at `start`, without its end (LF, CRLF or a lone CR), and where the next one starts.
-fn line_at(text: &str, start: usize) -> (Range<usize>, usize) {
-    let bytes = text.as_bytes();
-    match bytes[start..].iter().position(|&b| b <= b'\r' && (b == b'\n' || b == b'\r')) {
-        None => (start..text.len(), text.len()),
-        Some(n) => {
-            let end = start + n;
-            let crlf = bytes[end] == b'\r' && bytes.get(end + 1) == Some(&b'\n');
-            (start..end, end + 1 + usize::from(crlf))
         }
     }
 }
 
 /// The first `;` outside of parentheses.
-fn terminator(line: &str) -> Option<usize> {
+fn terminator(line: &[u8]) -> Option<usize> {
     let mut comment = false;
-    line.bytes().position(|b| {
+    line.iter().position(|b| {
         match b {
             b'(' => comment = true,
             b')' => comment = false,
             _ => {}
         }
-        b == b';' && !comment
+        *b == b';' && !comment
     })
 }
 
-fn ends_with_semicolons(text: &str) -> bool {
+fn ends_with_semicolons(view: &mut View) -> Result<bool, Trouble> {
     let (mut at, mut found) = (0, false);
-    while at < text.len() {
-        let (line, next) = line_at(text, at);
+    while let Some((line, next)) = view.line(at)? {
         at = next;
-        let line = text[line].trim_matches([' ', '\t']);
-        if line.is_empty() || line.starts_with('%') || is_comment(line) {
+        let line = trimmed(view.bytes(line));
+        if line.is_empty() || line.starts_with(b"%") || is_comment(line) {
             continue;
         }
-        if line.starts_with(';') || !line.ends_with(';') {
-            return false;
+        if line.starts_with(b";") || !line.ends_with(b";") {
+            return Ok(false);
         }
         found = true;
     }
-    found
+    Ok(found)
 }
 
 /// One comment in parentheses and nothing else.
-fn is_comment(line: &str) -> bool {
-    line.starts_with('(') && line.find(')') == Some(line.len() - 1)
+fn is_comment(line: &[u8]) -> bool {
+    line.starts_with(b"(") && line.iter().position(|b| *b == b')') == Some(line.len() - 1)
 }
 
-fn is_blank(text: &str) -> bool {
-    text.bytes().all(|b| matches!(b, b' ' | b'\t'))
+fn blank(byte: &u8) -> bool {
+    matches!(byte, b' ' | b'\t')
+}
+
+fn is_blank(text: &[u8]) -> bool {
+    text.iter().all(blank)
+}
+
+/// Without blanks at both ends.
+pub fn trimmed(line: &[u8]) -> &[u8] {
+    let start = line.iter().position(|b| !blank(b)).unwrap_or(line.len());
+    let end = line.iter().rposition(|b| !blank(b)).map_or(start, |i| i + 1);
+    &line[start..end]
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::ngc::text::{Text, Window};
 
     fn pieces(text: &str, style: Style) -> Vec<(u32, &str)> {
-        let mut lines = Lines::new(text, style);
-        std::iter::from_fn(|| lines.next(text)).map(|p| (p.line, &text[p.range])).collect()
+        let (whole, mut window) = (Text::from(text), Window::default());
+        let mut view = View { text: &whole, file: 0, window: &mut window };
+        let mut lines = Lines::new(&mut view, style);
+        std::iter::from_fn(|| lines.next(&mut view).unwrap()).map(|p| (p.line, &text[p.range])).collect()
     }
 
     #[test]

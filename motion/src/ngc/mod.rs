@@ -25,6 +25,7 @@ pub mod param;
 pub mod reader;
 pub mod request;
 pub mod state;
+pub mod text;
 pub mod tool;
 pub mod word;
 
@@ -33,3 +34,4 @@ pub use interpreter::{Interpreter, check};
 pub use lines::Style;
 pub use modal::{Distance, Modal, Motion};
 pub use options::{Options, Travel};
+pub use text::Text;

@@ -9,12 +9,11 @@ use takt_base::{Code, Diag, Span};
 
 impl Run<'_, '_> {
     /// All comments of a row; the drop-in form takes the last one, as LinuxCNC does.
-    pub fn comments(&mut self, row: &Row, text: &str, arena: &Arena) {
+    pub fn comments(&mut self, row: &Row, arena: &Arena) {
         let comments = &arena.comments[row.comments.range()];
         let first = if self.state.options.drop_in { comments.len() - 1 } else { 0 };
         for comment in &comments[first..] {
-            let inside = text.get(comment.place.0 as usize..comment.place.1 as usize).unwrap_or("");
-            self.comment(*comment, inside, arena);
+            self.comment(*comment, arena.text(comment.text), arena);
         }
     }
 

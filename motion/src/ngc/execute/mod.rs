@@ -66,10 +66,10 @@ pub enum Then {
 
 /// Runs a block that `request` holds. After an error the modes are as if the block had been right as far as that is known, so that the
 /// next block can be checked.
-pub fn execute(request: &Request, row: &Row, text: &str, arena: &Arena, state: &mut State, out: &mut Out) -> Then {
+pub fn execute(request: &Request, row: &Row, arena: &Arena, state: &mut State, out: &mut Out) -> Then {
     let mut run = Run { request, state, out, then: Then::Next };
     if !row.comments.is_empty() {
-        run.comments(row, text, arena);
+        run.comments(row, arena);
     }
     if run.halted() {
         return run.then;

@@ -237,11 +237,13 @@ pub fn name(cursor: &mut Cursor, arena: &mut Arena) -> Result<Option<Name>, Faul
         return Err(cursor.fault(Code::BadParameter, from, "the name is not closed", "write #<name>"));
     };
     let bytes = &cursor.rest()[..length];
-    let text = String::from_utf8_lossy(bytes);
-    if text.is_empty() {
+    if bytes.is_empty() {
         return Err(cursor.fault(Code::BadParameter, from, "the name is empty", "write #<name>"));
     }
-    let name = arena.names.intern(&text);
+    let name = match std::str::from_utf8(bytes) {
+        Ok(text) => arena.names.intern(text),
+        Err(_) => arena.names.intern(&crate::ngc::text::decoded(bytes)),
+    };
     cursor.pos += length + 1;
     Ok(Some(name))
 }

@@ -1,7 +1,9 @@
 //! The texts of a program: its own, and those of subroutines in files of their own.
 
+use crate::ngc::fault::Fault;
 use crate::ngc::lines::{Lines, Piece, Place, Style};
-use std::sync::Arc;
+use crate::ngc::text::{Text, View, Window};
+use std::ops::Range;
 use takt_base::SourceId;
 
 /// A place in one of the texts.
@@ -19,7 +21,7 @@ const FILES_MAX: usize = 10_000;
 #[derive(Clone, Debug)]
 struct File {
     source: SourceId,
-    text: Arc<str>,
+    text: Text,
     lines: Lines,
     indexed: bool,
 }
@@ -31,28 +33,28 @@ pub struct Files {
     /// The text at hand.
     pub at: u32,
     style: Style,
+    window: Window,
+    /// A file could not be read on: the program is at its end.
+    pub broken: bool,
 }
 
 impl Files {
     /// With the text of the main program.
-    pub fn new(source: SourceId, text: Arc<str>, style: Style) -> Self {
-        let mut files = Files { all: Vec::new(), at: 0, style };
+    pub fn new(source: SourceId, text: Text, style: Style) -> Self {
+        let mut files = Files { all: Vec::new(), at: 0, style, window: Window::default(), broken: false };
         files.add(source, text);
         files
     }
 
     /// Adds a text; `None` if there are too many.
-    pub fn add(&mut self, source: SourceId, text: Arc<str>) -> Option<u32> {
+    pub fn add(&mut self, source: SourceId, text: Text) -> Option<u32> {
         if self.all.len() >= FILES_MAX {
             return None;
         }
-        let lines = Lines::new(&text, self.style);
+        let mut view = View { text: &text, file: self.all.len() as u32, window: &mut self.window };
+        let lines = Lines::new(&mut view, self.style);
         self.all.push(File { source, text, lines, indexed: false });
         Some(self.all.len() as u32 - 1)
-    }
-
-    fn file(&mut self) -> &mut File {
-        &mut self.all[self.at as usize]
     }
 
     /// The place in the text at hand.
@@ -60,15 +62,40 @@ impl Files {
         &mut self.all[self.at as usize].lines
     }
 
-    /// The next piece of the text at hand.
-    pub fn next_piece(&mut self) -> Option<Piece> {
-        let file = self.file();
-        file.lines.next(&file.text)
+    /// The next piece of the text at hand; its bytes are held until the next one is read.
+    ///
+    /// # Errors
+    /// The file can't be read on.
+    pub fn next_piece(&mut self) -> Result<Option<Piece>, Fault> {
+        let file = &mut self.all[self.at as usize];
+        let mut view = View { text: &file.text, file: self.at, window: &mut self.window };
+        let piece = file.lines.next(&mut view);
+        piece.map_err(|trouble| {
+            self.broken = true;
+            trouble.fault(file.lines.place.next())
+        })
     }
 
-    /// The text at hand, borrowed.
-    pub fn text_ref(&self) -> &str {
-        &self.all[self.at as usize].text
+    /// Bytes of the piece that was read last.
+    pub fn bytes(&self, range: Range<usize>) -> &[u8] {
+        let file = &self.all[self.at as usize];
+        self.window.bytes(&file.text, self.at, range)
+    }
+
+    /// Length of the text at hand in bytes.
+    pub fn len(&self) -> usize {
+        self.all[self.at as usize].text.len()
+    }
+
+    /// Goes to a line (from 1) of the main program. False if there are fewer.
+    ///
+    /// # Errors
+    /// The file can't be read.
+    pub fn seek(&mut self, line: u32) -> Result<bool, Fault> {
+        self.at = 0;
+        let found = self.all[0].text.start_of(line).map_err(|trouble| trouble.fault(0))?;
+        self.lines().place = Place::at_line(line, found.unwrap_or(0));
+        Ok(found.is_some())
     }
 
     /// Its file in diagnostics.

@@ -7,7 +7,7 @@ mod skip;
 
 use super::code::{Code as Arena, Row};
 use super::fault::Fault;
-use super::lines::Place;
+use super::lines::{Place, trimmed};
 use super::param::Name;
 use super::reader::Reader;
 use files::{Files, Spot};
@@ -165,10 +165,13 @@ impl Flow {
     }
 
     fn read(&mut self) -> Next {
-        let Some(piece) = self.files.next_piece() else { return Next::End };
-        let text = self.files.text_ref();
-        let inside = &text[piece.range.clone()];
-        if inside.trim_start_matches([' ', '\t']).starts_with('%') {
+        let piece = match self.files.next_piece() {
+            Ok(Some(piece)) => piece,
+            Ok(None) => return Next::End,
+            Err(fault) => return Next::Wrong(fault, self.files.lines().line()),
+        };
+        let inside = self.files.bytes(piece.range.clone());
+        if trimmed(inside).starts_with(b"%") {
             return Next::Percent(piece.range.start, piece.range.end);
         }
         match self.reader.read(inside, piece.range.start, piece.line, &mut self.code) {
@@ -181,6 +184,12 @@ impl Flow {
     pub fn restart(&mut self) {
         self.blocks.clear();
         self.files.lines().place = Place::default();
+    }
+
+    /// Ends all calls and blocks.
+    pub fn leave_all(&mut self) {
+        self.frames.clear();
+        self.blocks.clear();
     }
 
     fn top(&self) -> Option<(Key, Open)> {

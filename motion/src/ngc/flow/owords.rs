@@ -127,7 +127,7 @@ impl Flow {
         }
         for file in [self.files.at, 0] {
             if self.files.index_now(file) {
-                self.index(file);
+                self.index(file)?;
             }
         }
         if let Some(&spot) = self.subs.get(&key) {
@@ -137,11 +137,11 @@ impl Flow {
             Key::Number(number) => number.to_string(),
             Key::Name(id) => self.code.names.text_of(id).to_owned(),
         };
-        if let Some((source, text)) = state.options.host.open(&name)
+        if let Some((source, text)) = state.options.host.open_text(&name)
             && let Some(file) = self.files.add(source, text)
             && self.files.index_now(file)
         {
-            self.index(file);
+            self.index(file)?;
         }
         self.subs.get(&key).copied().ok_or_else(|| {
             let help = format!("define it with `o<{name}> sub`, or put it into the file {name}.ngc in the folder of subroutines");
@@ -149,10 +149,11 @@ impl Flow {
         })
     }
 
-    fn index(&mut self, file: u32) {
+    fn index(&mut self, file: u32) -> Result<(), Fault> {
         let back = std::mem::replace(&mut self.files.at, file);
-        self.index_subs();
+        let indexed = self.index_subs();
         self.files.at = back;
+        indexed
     }
 
     fn end_sub(&mut self, key: Key, word: &OWord, state: &mut State, stack: &mut Stack) -> Result<After, Fault> {

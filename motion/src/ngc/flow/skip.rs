@@ -17,7 +17,7 @@ impl Flow {
             }
         }
         loop {
-            let Some((row, place)) = self.next_oword() else {
+            let Some((row, place)) = self.next_oword()? else {
                 let help = "write the O word that ends it, with the same number or name";
                 return Err(misfit(from, "nothing ends this block", help));
             };
@@ -44,14 +44,13 @@ impl Flow {
     }
 
     /// The next row with an O word, and where it stands; `None` at the end of the text.
-    fn next_oword(&mut self) -> Option<(Row, Place)> {
+    fn next_oword(&mut self) -> Result<Option<(Row, Place)>, Fault> {
         loop {
             let place = self.files.lines().place;
-            let piece = self.files.next_piece()?;
-            let text = self.files.text_ref();
-            let inside = &text[piece.range.clone()];
-            if inside.trim_start().starts_with('%') {
-                return None;
+            let Some(piece) = self.files.next_piece()? else { return Ok(None) };
+            let inside = self.files.bytes(piece.range.clone());
+            if inside.trim_ascii_start().starts_with(b"%") {
+                return Ok(None);
             }
             let wanted = starts_with_o(inside);
             if !wanted && !self.thorough {
@@ -59,7 +58,7 @@ impl Flow {
             }
             let mark = self.code.mark();
             match self.reader.read(inside, piece.range.start, piece.line, &mut self.code) {
-                Ok(row) if wanted => return Some((row, place)),
+                Ok(row) if wanted => return Ok(Some((row, place))),
                 Ok(_) => self.code.truncate(mark),
                 Err(fault) if self.thorough => self.found.push((piece.line, fault)),
                 Err(_) => {}
@@ -68,13 +67,13 @@ impl Flow {
     }
 
     /// All subroutines and program numbers of the text at hand.
-    pub(super) fn index_subs(&mut self) {
+    pub(super) fn index_subs(&mut self) -> Result<(), Fault> {
         let back = self.files.spot();
         let thorough = std::mem::replace(&mut self.thorough, false);
         self.files.lines().place = Place::default();
         loop {
             let mark = self.code.mark();
-            let Some((row, _)) = self.next_oword() else { break };
+            let Some((row, _)) = self.next_oword()? else { break };
             if let Some(word) = row.oword
                 && matches!(word.keyword, Keyword::Sub | Keyword::Program)
                 && let Some(key) = self.key(word.label)
@@ -86,6 +85,7 @@ impl Flow {
         }
         self.thorough = thorough;
         self.files.go(back);
+        Ok(())
     }
 
     /// Key of a label that is no expression.
@@ -99,8 +99,7 @@ impl Flow {
 }
 
 /// Behind blanks, `/` and a block number.
-fn starts_with_o(text: &str) -> bool {
-    let bytes = text.as_bytes();
+fn starts_with_o(bytes: &[u8]) -> bool {
     let blank = |b: &&u8| matches!(b, b' ' | b'\t' | b'/');
     let mut rest = bytes.iter().skip_while(blank);
     match rest.next() {

@@ -23,19 +23,19 @@ impl Reader {
     ///
     /// # Errors
     /// The first thing that is no word, no setting and no comment.
-    pub fn read(&mut self, text: &str, start: usize, line: u32, arena: &mut Arena) -> Result<Row, Fault> {
+    pub fn read(&mut self, text: impl AsRef<[u8]>, start: usize, line: u32, arena: &mut Arena) -> Result<Row, Fault> {
         let from = arena.mark();
-        let row = self.fill(text, start, line, arena);
+        let row = self.fill(text.as_ref(), start, line, arena);
         if row.is_err() {
             arena.truncate(from);
         }
         row
     }
 
-    fn fill(&mut self, text: &str, start: usize, line: u32, arena: &mut Arena) -> Result<Row, Fault> {
+    fn fill(&mut self, text: &[u8], start: usize, line: u32, arena: &mut Arena) -> Result<Row, Fault> {
         let place = (start as u32, (start + text.len()) as u32);
         let [words, settings, comments] = [arena.words.len(), arena.settings.len(), arena.comments.len()];
-        self.squeezed.fill(text, start, &mut arena.comments)?;
+        self.squeezed.fill(text, start, arena)?;
         let mut cursor = Cursor { bytes: &self.squeezed.bytes, at: &self.squeezed.at, pos: 0 };
         let deleted = cursor.eat(b'/');
         let n = number_word(&mut cursor)?;

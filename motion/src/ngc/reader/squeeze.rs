@@ -1,6 +1,6 @@
 //! First pass over a row: blanks out, letters to lower case, comments aside.
 
-use crate::ngc::code::{Comment, CommentKind};
+use crate::ngc::code::{Code as Arena, Comment, CommentKind};
 use crate::ngc::fault::Fault;
 use takt_base::Code;
 
@@ -14,16 +14,15 @@ pub struct Squeezed {
 }
 
 impl Squeezed {
-    /// Fills the buffers from `text` at byte `start` of the file; comments go to `comments`.
-    pub fn fill(&mut self, text: &str, start: usize, comments: &mut Vec<Comment>) -> Result<(), Fault> {
+    /// Fills the buffers from `bytes` at byte `start` of the file; comments go to `arena`.
+    pub fn fill(&mut self, bytes: &[u8], start: usize, arena: &mut Arena) -> Result<(), Fault> {
         self.bytes.clear();
         self.at.clear();
-        let bytes = text.as_bytes();
         let mut i = 0;
         while let Some(&byte) = bytes.get(i) {
             match byte {
                 b' ' | b'\t' => {}
-                b'(' => i = comment(bytes, i, start, comments)?,
+                b'(' => i = comment(bytes, i, start, arena)?,
                 // LinuxCNC drops it as well, whatever it says.
                 b';' => break,
                 _ => {
@@ -39,7 +38,7 @@ impl Squeezed {
 }
 
 /// `( text )` at byte `i`: no nesting, ends on its row. Returns its last byte.
-fn comment(bytes: &[u8], i: usize, start: usize, comments: &mut Vec<Comment>) -> Result<usize, Fault> {
+fn comment(bytes: &[u8], i: usize, start: usize, arena: &mut Arena) -> Result<usize, Fault> {
     let inside = &bytes[i + 1..];
     let length = inside.iter().position(|&b| b == b')' || b == b'(').unwrap_or(inside.len());
     match inside.get(length) {
@@ -52,7 +51,8 @@ fn comment(bytes: &[u8], i: usize, start: usize, comments: &mut Vec<Comment>) ->
     }
     let (kind, skip) = kind_of(&inside[..length]);
     let from = start + i + 1;
-    comments.push(Comment { kind, place: ((from + skip) as u32, (from + length) as u32) });
+    let text = arena.add_text(&inside[skip..length]);
+    arena.comments.push(Comment { kind, text, place: ((from + skip) as u32, (from + length) as u32) });
     Ok(i + 1 + length)
 }
 
