@@ -190,8 +190,8 @@ impl Source {
 
     /// Text of a line (from 1) without its line end; empty if there is no such line.
     pub fn line(&self, line: u32) -> &str {
-        if let Some(e) = self.excerpts.iter().find(|e| e.line == line) {
-            return &e.text;
+        if let Ok(i) = self.excerpts.binary_search_by_key(&line, |e| e.line) {
+            return &self.excerpts[i].text;
         }
         let Some(&start) = self.line_starts.get((line as usize).wrapping_sub(1)) else { return "" };
         let end = self.line_starts.get(line as usize).map_or(self.text.len(), |&e| e as usize);

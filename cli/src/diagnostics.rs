@@ -3,7 +3,7 @@
 use serde::Serialize;
 use std::io::IsTerminal;
 use takt_base::diag::render;
-use takt_base::{Diag, Severity, Sources};
+use takt_base::{Code, Diag, Severity, Sources};
 
 /// One object of the JSON form.
 #[derive(Serialize)]
@@ -39,13 +39,40 @@ pub fn json(diag: &Diag, sources: &Sources) -> JsonDiag {
 
 /// Prints messages to stderr and a count if there are errors.
 pub fn print(diags: &[Diag], sources: &Sources) {
-    for diag in diags {
-        eprintln!("{}", color(&render(diag, sources), diag.severity));
+    let mut count = Count::default();
+    count.print(diags, sources);
+    count.finish();
+}
+
+/// Prints messages as they come, and at the end how many were errors.
+#[derive(Default)]
+pub struct Count {
+    errors: usize,
+    first: Option<Code>,
+}
+
+impl Count {
+    /// Prints messages to stderr.
+    pub fn print(&mut self, diags: &[Diag], sources: &Sources) {
+        for diag in diags {
+            eprintln!("{}", color(&render(diag, sources), diag.severity));
+        }
+        let errors = || diags.iter().filter(|d| d.severity == Severity::Error);
+        self.errors += errors().count();
+        self.first = self.first.or_else(|| errors().next().map(|d| d.code));
     }
-    let errors = diags.iter().filter(|d| d.severity == Severity::Error).count();
-    if let Some(first) = diags.iter().find(|d| d.severity == Severity::Error) {
-        let s = if errors == 1 { "" } else { "s" };
-        eprintln!("{errors} error{s}; `takt explain {}` says more", first.code.text());
+
+    /// True if one of them was an error.
+    pub fn any_error(&self) -> bool {
+        self.errors > 0
+    }
+
+    /// Prints the number of errors, if there were any.
+    pub fn finish(&self) {
+        if let Some(first) = self.first {
+            let (errors, s) = (self.errors, if self.errors == 1 { "" } else { "s" });
+            eprintln!("{errors} error{s}; `takt explain {}` says more", first.text());
+        }
     }
 }
 

@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 use takt_base::SourceId;
 use takt_motion::canon::{MotionMode, Units};
-use takt_motion::ngc::{Interpreter, Options, Style, tool};
+use takt_motion::ngc::{Interpreter, Options, Style, Text, tool};
 use takt_motion::print::rs274::Listing;
 
 const TOOLS: &str = "T1 P1 Z0 D0.1 ;a tool of 0.1 inch\n";
@@ -69,7 +69,7 @@ fn open(path: &Path) -> Interpreter {
         tools: Some(tools.into()),
         ..Options::default()
     };
-    Interpreter::new(SourceId(0), std::fs::read_to_string(path).expect("the program"), options)
+    Interpreter::new(SourceId(0), Text::open(path).expect("the program"), options)
 }
 
 fn interpret(path: &Path) {
@@ -82,7 +82,7 @@ fn interpret(path: &Path) {
 
 /// What `takt rs274 -g FILE OUT` does.
 fn list(path: &Path, out: &Path) {
-    let mut out = std::io::BufWriter::new(std::fs::File::create(out).expect("a file for the listing"));
+    let mut out = std::io::BufWriter::with_capacity(1 << 16, std::fs::File::create(out).expect("a file for the listing"));
     let (mut listing, mut rows) = (Listing::new(25.4), String::new());
     for step in open(path) {
         rows.clear();

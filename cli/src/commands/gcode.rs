@@ -2,14 +2,14 @@
 
 use crate::Status;
 use crate::diagnostics;
-use crate::project::Problem;
-use crate::subroutines::{Subroutines, tables};
+use crate::project::{self, Problem};
+use crate::subroutines::{self, Subroutines, tables};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use takt_base::{Diag, SourceId, Sources};
+use takt_base::{Diag, SourceId, Sources, Span};
 use takt_motion::canon::Step;
-use takt_motion::ngc::{self, HostRef, Interpreter, Options};
+use takt_motion::ngc::{self, HostRef, Interpreter, Options, Text};
 use takt_motion::{draw, print};
 
 /// Print, check, plan or plot a part program
@@ -25,6 +25,9 @@ pub struct Args {
     /// With --canon: the source line in front of each
     #[arg(long, requires = "canon")]
     number_lines: bool,
+    /// With --canon: begin at this line, as a block search does; nothing before it is executed
+    #[arg(long, value_name = "LINE", requires = "canon", value_parser = clap::value_parser!(u32).range(1..))]
+    from_line: Option<u32>,
     /// Find all errors
     #[arg(long)]
     check: bool,
@@ -66,7 +69,7 @@ pub fn run(args: Args) -> Status {
 /// A part program that was read.
 pub struct PartProgram {
     subroutines: Arc<Subroutines>,
-    sources: Sources,
+    text: Text,
     pub id: SourceId,
     pub options: Options,
 }
@@ -74,12 +77,12 @@ pub struct PartProgram {
 impl PartProgram {
     fn read(args: &Args) -> Result<Self, Problem> {
         let mut sources = Sources::new();
-        let id = sources.add_bytes(args.file.display().to_string(), crate::project::read(&args.file)?);
+        let (id, text) = subroutines::open(&args.file, &mut sources).map_err(|e| project::unreadable(&args.file, &e))?;
         let modes = sources.add("--modes", args.modes.clone());
         let tools = args.tool_table.as_deref().map(|path| tables::tools(path, &mut sources, 1.0)).transpose()?;
         let parameters = args.params.as_deref().map(|path| tables::parameters(path, &mut sources)).transpose()?;
         let folders = args.file.parent().map(Path::to_path_buf).into_iter().chain(args.subs.iter().cloned()).collect();
-        let subroutines = Arc::new(Subroutines::new(folders, sources.clone(), HashMap::new()));
+        let subroutines = Arc::new(Subroutines::new(folders, sources.clone(), (id, text.clone()), HashMap::new()));
         let options = Options {
             skip_deleted: args.skip_deleted,
             tools,
@@ -88,24 +91,36 @@ impl PartProgram {
             ..Options::default()
         };
         match options.with_modes(modes, &args.modes) {
-            Ok(options) => Ok(Self { subroutines, sources, id, options }),
+            Ok(options) => Ok(Self { subroutines, text, id, options }),
             Err(diag) => Err(Problem::Diags(vec![*diag], sources)),
         }
     }
 
-    /// All files that were read, those of subroutines among them.
-    pub fn sources(&self) -> Sources {
-        self.subroutines.sources()
+    /// A message with the lines that it shows.
+    pub fn problem(&self, diag: Diag) -> Problem {
+        self.subroutines.problem(vec![diag])
     }
 
-    fn text(&self) -> &str {
-        &self.sources.get(self.id).text
+    /// Where a line stands.
+    pub fn line(&self, line: u32) -> Span {
+        let start = self.text.start_of(line).ok().flatten().unwrap_or(self.text.len());
+        let length = self.text.excerpt(start as u32).map_or(0, |e| e.text.len());
+        Span::new(self.id, start, start + length)
+    }
+
+    /// From line `from` on.
+    fn interpreter(&self, from: Option<u32>) -> Result<Interpreter, Problem> {
+        let mut interpreter = Interpreter::new(self.id, self.text.clone(), self.options.clone());
+        if let Some(line) = from {
+            interpreter.seek(line).map_err(|diag| self.problem(*diag))?;
+        }
+        Ok(interpreter)
     }
 
     /// All steps, or the first error.
     pub fn steps(&self) -> Result<Vec<Step>, Problem> {
-        let steps: Result<Vec<_>, Box<Diag>> = Interpreter::new(self.id, self.text(), self.options.clone()).collect();
-        steps.map_err(|diag| Problem::Diags(vec![*diag], self.sources()))
+        let steps: Result<Vec<_>, Box<Diag>> = self.interpreter(None)?.collect();
+        steps.map_err(|diag| self.problem(*diag))
     }
 }
 
@@ -115,10 +130,10 @@ fn execute(args: &Args) -> Result<Status, Problem> {
         return Ok(Status::Wrong);
     }
     if args.canon {
-        print_canon(&program, args.number_lines)?;
+        print_canon(&program, args.number_lines, args.from_line)?;
     }
     if let Some(out) = &args.plot {
-        plot(&program, out)?;
+        plot(&program, &args.file, out)?;
     }
     if args.plan || args.trace.is_some() {
         return super::gcode_plan::execute(&program, &args.plan_args, args.plan, args.trace.as_deref());
@@ -126,18 +141,32 @@ fn execute(args: &Args) -> Result<Status, Problem> {
     Ok(Status::Success)
 }
 
-/// True if there is no error.
+/// Messages that are shown together.
+const BATCH: usize = 1000;
+
+/// True if there is no error. Messages are shown as they are found, so that their number does not matter.
 fn check(program: &PartProgram) -> bool {
-    let diags = ngc::check(program.id, program.text(), program.options.clone());
-    diagnostics::print(&diags, &program.sources());
-    !diagnostics::any_error(&diags)
+    let (mut batch, mut count) = (Vec::new(), diagnostics::Count::default());
+    let mut show = |batch: &mut Vec<Diag>| {
+        count.print(batch, &program.subroutines.sources(batch));
+        batch.clear();
+    };
+    ngc::check_each(program.id, program.text.clone(), program.options.clone(), |diag| {
+        batch.push(diag);
+        if batch.len() >= BATCH {
+            show(&mut batch);
+        }
+    });
+    show(&mut batch);
+    count.finish();
+    !count.any_error()
 }
 
 /// Streams, so that a program of any size is printed up to its first error.
-fn print_canon(program: &PartProgram, numbered: bool) -> Result<(), Problem> {
+fn print_canon(program: &PartProgram, numbered: bool, from: Option<u32>) -> Result<(), Problem> {
     use std::io::Write;
     let mut out = std::io::BufWriter::new(std::io::stdout().lock());
-    for step in Interpreter::new(program.id, program.text(), program.options.clone()) {
+    for step in program.interpreter(from)? {
         match step {
             Ok(step) => {
                 if writeln!(out, "{}", print::line(&step, numbered)).is_err() {
@@ -146,7 +175,7 @@ fn print_canon(program: &PartProgram, numbered: bool) -> Result<(), Problem> {
             }
             Err(diag) => {
                 let _ = out.flush();
-                return Err(Problem::Diags(vec![*diag], program.sources()));
+                return Err(program.problem(*diag));
             }
         }
     }
@@ -154,8 +183,7 @@ fn print_canon(program: &PartProgram, numbered: bool) -> Result<(), Problem> {
     Ok(())
 }
 
-fn plot(program: &PartProgram, out: &Path) -> Result<(), Problem> {
-    let title = program.sources.get(program.id).name.clone();
-    let picture = draw::draw(&program.steps()?, &title);
-    crate::project::write(out, picture.to_svg().as_bytes())
+fn plot(program: &PartProgram, file: &Path, out: &Path) -> Result<(), Problem> {
+    let picture = draw::draw(&program.steps()?, &file.display().to_string());
+    project::write(out, picture.to_svg().as_bytes())
 }

@@ -6,7 +6,7 @@ use crate::project::{self, Problem};
 use serde_json::{Map, Value as Json, json};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
-use takt_base::{Code, Diag, Span};
+use takt_base::{Code, Diag};
 use takt_motion::plan::{PlanConfig, PlanError, PlanReport, plan};
 
 /// Letters of the planned axes, in the order of a point.
@@ -73,12 +73,7 @@ fn config(args: &PlanArgs) -> Result<PlanConfig, Problem> {
 }
 
 fn problem(program: &PartProgram, e: PlanError) -> Problem {
-    let sources = program.sources();
-    let text = sources.get(program.id);
-    let start = text.line_start(e.mark.line);
-    let span = Span::new(program.id, start, start + text.line(e.mark.line).len());
-    let diag = Diag::new(e.error.code, span, e.error.to_string());
-    Problem::Diags(vec![diag], program.sources())
+    program.problem(Diag::new(e.error.code, program.line(e.mark.line), e.error.to_string()))
 }
 
 fn print_report(r: &PlanReport, format: &str) {

@@ -2,7 +2,7 @@
 
 use crate::Status;
 use crate::project::{self, Problem};
-use crate::subroutines::{Subroutines, tables};
+use crate::subroutines::{self, Subroutines, tables};
 use std::collections::HashMap;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -60,7 +60,7 @@ fn default_tools() -> Arc<[ToolEntry]> {
 
 fn execute(args: &Args) -> Result<Status, Problem> {
     let mut sources = Sources::new();
-    let id = sources.add_bytes(args.file.display().to_string(), project::read(&args.file)?);
+    let (id, text) = subroutines::open(&args.file, &mut sources).map_err(|e| project::unreadable(&args.file, &e))?;
     let tools = match &args.tools {
         Some(path) => tables::tools(path, &mut sources, TABLE_MM)?,
         None => default_tools(),
@@ -69,7 +69,7 @@ fn execute(args: &Args) -> Result<Status, Problem> {
     let parameters = existing.map(|path| tables::parameters(path, &mut sources)).transpose()?.unwrap_or_default();
     let ini = args.ini.as_deref().map(Ini::read).transpose()?.unwrap_or_default();
     let folders = ini.folders(&args.file);
-    let host = Arc::new(Subroutines::new(folders, sources.clone(), ini.values));
+    let host = Arc::new(Subroutines::new(folders, sources, (id, text.clone()), ini.values));
     let options = Options {
         drop_in: true,
         style: Style::Ngc,
@@ -83,7 +83,6 @@ fn execute(args: &Args) -> Result<Status, Problem> {
         ..Options::default()
     };
     eprintln!("executing");
-    let text: Arc<str> = sources.get(id).text.as_str().into();
     let mut interpreter = Interpreter::new(id, text, options);
     let wrong = list(args, &mut interpreter, &host)?;
     if let Some(path) = &args.params {
@@ -104,8 +103,8 @@ fn list(args: &Args, interpreter: &mut Interpreter, host: &Subroutines) -> Resul
         ),
         None => None,
     };
-    let mut console = std::io::BufWriter::new(std::io::stdout().lock());
-    let mut file = file.map(std::io::BufWriter::new);
+    let mut console = std::io::BufWriter::with_capacity(1 << 16, std::io::stdout().lock());
+    let mut file = file.map(|file| std::io::BufWriter::with_capacity(1 << 16, file));
     let (mut listing, mut rows, mut wrong) = (Listing::new(TABLE_MM), String::new(), false);
     loop {
         rows.clear();
@@ -146,9 +145,9 @@ fn list(args: &Args, interpreter: &mut Interpreter, host: &Subroutines) -> Resul
 
 /// The message, and the row that it is about.
 fn complain(diag: &Diag, host: &Subroutines) {
-    let sources = host.sources();
+    let sources = host.sources(std::slice::from_ref(diag));
     let at = sources.line_col(diag.span.source, diag.span.start);
-    let row = sources.get(diag.span.source).text.lines().nth(at.line.saturating_sub(1) as usize).unwrap_or("").to_owned();
+    let row = sources.get(diag.span.source).line(at.line);
     eprintln!("{}: {} (line {}, column {}: {})", diag.code.text(), diag.message, at.line, at.column, diag.label);
     eprintln!("{row}");
 }

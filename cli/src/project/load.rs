@@ -184,7 +184,7 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<(), Problem> {
     std::fs::write(path, bytes).map_err(failed)
 }
 
-fn unreadable(path: &Path, e: &std::io::Error) -> Problem {
+pub fn unreadable(path: &Path, e: &std::io::Error) -> Problem {
     Problem::File(Code::FileError, format!("can't read {}: {e}", path.display()))
 }
 

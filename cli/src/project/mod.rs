@@ -5,7 +5,7 @@ mod load;
 mod machine;
 
 pub use file::ProjectFile;
-pub use load::{Problem, Project, load, parse_keys, read, write};
+pub use load::{Problem, Project, load, parse_keys, read, unreadable, write};
 pub use machine::{machine, time};
 
 /// All keys of the project file, for `takt explain takt.toml`.

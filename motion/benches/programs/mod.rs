@@ -27,18 +27,15 @@ fn lines(rows: usize) -> Program {
     Program { name: "lines", text: text + "M2\n", rows }
 }
 
-/// Arcs with their centres, forth and back over steps of a staircase.
+/// Arcs with their centres, forth and back with changing radii, some of them helices.
 fn arcs(rows: usize) -> Program {
     let mut text = String::from(HEAD);
     for i in 0..rows {
-        let (code, x) = if i % 2 == 0 { ("G2", 10.0) } else { ("G3", 0.0) };
-        let y = (i / 2 % 100) as f64 * 0.25;
-        if i % 2 == 0 {
-            let _ = writeln!(text, "G1 Y{y:.4}");
-        }
-        let _ = writeln!(text, "{code} X{x:.4} Y{y:.4} I{:.4} J0.0000", x - 5.0);
+        let (radius, z) = (2.0 + (i / 2 % 100) as f64 * 0.25, (i / 2 % 10) as f64 * 0.1);
+        let (code, x, centre) = if i % 2 == 0 { ("G2", 2.0 * radius, radius) } else { ("G3", 0.0, -radius) };
+        let _ = writeln!(text, "{code} X{x:.4} Y0.0000 Z{z:.4} I{centre:.4} J0.0000");
     }
-    Program { name: "arcs", text: text + "M2\n", rows: rows + rows / 2 }
+    Program { name: "arcs", text: text + "M2\n", rows }
 }
 
 /// Loops with expressions: 5 rows a turn.

@@ -30,7 +30,7 @@ pub mod tool;
 pub mod word;
 
 pub use host::{Host, HostRef};
-pub use interpreter::{Interpreter, check};
+pub use interpreter::{Interpreter, check, check_each};
 pub use lines::Style;
 pub use modal::{Distance, Modal, Motion};
 pub use options::{Options, Travel};

@@ -33,6 +33,14 @@ impl Listing {
                 self.row(None, "ON_RESET()", out);
                 self.closed = true;
             }
+            Canon::StraightTraverse(p) => self.quick(step.n, "STRAIGHT_TRAVERSE(", &<[f64; 6]>::from(*p), out),
+            Canon::StraightFeed(p) => self.quick(step.n, "STRAIGHT_FEED(", &<[f64; 6]>::from(*p), out),
+            Canon::Dwell(seconds) => self.quick(step.n, "DWELL(", &[*seconds], out),
+            Canon::SetFeedRate(rate) => self.quick(step.n, "SET_FEED_RATE(", &[*rate], out),
+            Canon::ArcFeed(a) => {
+                self.head(step.n, out);
+                arc(a, out);
+            }
             command => {
                 let text = call(command, self.table_unit);
                 if !text.is_empty() {
@@ -40,6 +48,14 @@ impl Listing {
                 }
             }
         }
+    }
+
+    /// The calls that programs consist of, without a text between.
+    fn quick(&mut self, n: Option<u32>, name: &str, numbers: &[f64], out: &mut String) {
+        self.head(n, out);
+        out.push_str(name);
+        list(out, numbers);
+        out.push_str(")\n");
     }
 
     /// The rows behind the last step.
@@ -59,11 +75,21 @@ impl Listing {
     }
 
     fn row(&mut self, n: Option<u32>, text: &str, out: &mut String) {
+        self.head(n, out);
+        out.push_str(text);
+        out.push('\n');
+    }
+
+    /// Number and N word of a row.
+    fn head(&mut self, n: Option<u32>, out: &mut String) {
         self.rows = self.rows.wrapping_add(1);
-        let _ = match n {
-            Some(n) => writeln!(out, "{:5} N{n:<6}{text}", self.rows),
-            None => writeln!(out, "{:5} N..... {text}", self.rows),
-        };
+        padded(out, self.rows);
+        match n {
+            Some(n) => {
+                let _ = write!(out, " N{n:<6}");
+            }
+            None => out.push_str(" N..... "),
+        }
     }
 }
 
@@ -76,17 +102,12 @@ fn call(command: &Canon, table_unit: f64) -> String {
         Canon::SetG5xOffset(i, p) => format!("SET_G5X_OFFSET({i}, {})", six(p)),
         Canon::SetG92Offset(p) => format!("SET_G92_OFFSET({})", six(p)),
         Canon::SetXyRotation(r) => format!("SET_XY_ROTATION({r:.4})"),
-        Canon::StraightTraverse(p) => format!("STRAIGHT_TRAVERSE({})", six(p)),
-        Canon::StraightFeed(p) => format!("STRAIGHT_FEED({})", six(p)),
         Canon::StraightProbe(p, _) => format!("STRAIGHT_PROBE({})", six(p)),
         Canon::RigidTap(p) => format!("RIGID_TAP({:.4}, {:.4}, {:.4})", p.x, p.y, p.z),
-        Canon::ArcFeed(a) => arc(a),
         Canon::NurbsFeed(n) => format!("NURBS_FEED({}, ...)", n.points.len()),
-        Canon::SetFeedRate(f) => format!("SET_FEED_RATE({f:.4})"),
         Canon::SetFeedMode(per_rev) => format!("SET_FEED_MODE(0, {})", u8::from(*per_rev)),
         Canon::SetMotionControlMode(mode) => mode_call(*mode),
         Canon::SetNaivecamTolerance(t) => format!("SET_NAIVECAM_TOLERANCE({t:.4})"),
-        Canon::Dwell(s) => format!("DWELL({s:.4})"),
         Canon::StartSpeedFeedSync(k) => format!("START_SPEED_FEED_SYNC({k:.6},0)"),
         Canon::StopSpeedFeedSynch => "STOP_SPEED_FEED_SYNCH()".into(),
         Canon::SetOriginOffsets(_) | Canon::WaitInput(_) | Canon::Print(_) => String::new(),
@@ -133,35 +154,48 @@ fn list(out: &mut String, numbers: &[f64]) {
 
 /// `{:.4}`, in a quick way for numbers of usual size that are not near a tie of the rounding.
 fn fixed4(out: &mut String, value: f64) {
+    if value.to_bits() == 0 {
+        return out.push_str("0.0000");
+    }
     let scaled = value.abs() * 1e4;
     let near = scaled.round();
     if scaled >= 1e13 || ((scaled - near).abs() - 0.5).abs() < 1e-3 || !value.is_finite() {
         let _ = write!(out, "{value:.4}");
         return;
     }
-    if value.is_sign_negative() {
-        out.push('-');
-    }
     let (whole, part) = (near as u64 / 10_000, near as u64 % 10_000);
-    let mut digits = [b'0'; 20];
-    let (mut i, mut rest) = (digits.len(), part);
-    for _ in 0..4 {
-        i -= 1;
-        digits[i] = b'0' + (rest % 10) as u8;
-        rest /= 10;
+    let mut text = [b'0'; ROOM];
+    text[ROOM - 5] = b'.';
+    digits(&mut text, ROOM, part);
+    let mut start = digits(&mut text, ROOM - 5, whole);
+    if value.is_sign_negative() {
+        start -= 1;
+        text[start] = b'-';
     }
-    i -= 1;
-    digits[i] = b'.';
-    rest = whole;
+    out.push_str(std::str::from_utf8(&text[start..]).unwrap_or("0.0000"));
+}
+
+/// `{:5}`.
+fn padded(out: &mut String, number: u32) {
+    let mut text = [b' '; ROOM];
+    let start = digits(&mut text, ROOM, u64::from(number)).min(ROOM - 5);
+    out.push_str(std::str::from_utf8(&text[start..]).unwrap_or(""));
+}
+
+/// Bytes for a number of 13 digits, a point and a sign.
+const ROOM: usize = 24;
+
+/// Writes `number` so that it ends before `end`; where it starts.
+fn digits(text: &mut [u8; ROOM], end: usize, mut number: u64) -> usize {
+    let mut i = end;
     loop {
         i -= 1;
-        digits[i] = b'0' + (rest % 10) as u8;
-        rest /= 10;
-        if rest == 0 {
-            break;
+        text[i] = b'0' + (number % 10) as u8;
+        number /= 10;
+        if number == 0 || i == 0 {
+            return i;
         }
     }
-    out.push_str(std::str::from_utf8(&digits[i..]).unwrap_or("0.0000"));
 }
 
 fn six(p: &Position) -> String {
@@ -170,14 +204,12 @@ fn six(p: &Position) -> String {
     out
 }
 
-fn arc(a: &Arc) -> String {
-    let mut out = String::with_capacity(96);
+fn arc(a: &Arc, out: &mut String) {
     out.push_str("ARC_FEED(");
-    list(&mut out, &[a.first_end, a.second_end, a.first_axis, a.second_axis]);
+    list(out, &[a.first_end, a.second_end, a.first_axis, a.second_axis]);
     let _ = write!(out, ", {}, ", a.rotation);
-    list(&mut out, &[a.axis_end_point, a.a, a.b, a.c]);
-    out.push(')');
-    out
+    list(out, &[a.axis_end_point, a.a, a.b, a.c]);
+    out.push_str(")\n");
 }
 
 fn mode_call(mode: MotionMode) -> String {
@@ -202,7 +234,16 @@ fn tool_entry(entry: &ToolEntry, unit: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::fixed4;
+    use super::{fixed4, padded};
+
+    #[test]
+    fn row_numbers_are_padded() {
+        for number in [0, 7, 99_999, 100_000, u32::MAX] {
+            let mut out = String::new();
+            padded(&mut out, number);
+            assert_eq!(out, format!("{number:5}"));
+        }
+    }
 
     #[test]
     fn the_quick_way_prints_the_same() {
