@@ -5,17 +5,21 @@ use std::fmt::Write;
 
 /// A part program and how many rows of it are executed.
 pub struct Program {
-    pub name: &'static str,
     pub text: String,
     pub rows: usize,
 }
 
 const HEAD: &str = "G21 G17 G90 G40 G80 G64 F3000\n";
 
-/// All programs of the bench.
-pub fn all() -> Vec<Program> {
-    vec![lines(1_000_000), arcs(200_000), macros(100_000), calls(200_000), drilling(100_000), compensated(200_000)]
-}
+/// All programs of the bench: name, rows or turns, and who writes it.
+pub const ALL: [(&str, usize, fn(usize) -> Program); 6] = [
+    ("lines", 1_000_000, lines),
+    ("arcs", 200_000, arcs),
+    ("macro-loops", 100_000, macros),
+    ("macro-calls", 200_000, calls),
+    ("drilling", 100_000, drilling),
+    ("compensation", 200_000, compensated),
+];
 
 /// Short lines of a curve, as CAM systems write them.
 fn lines(rows: usize) -> Program {
@@ -24,7 +28,7 @@ fn lines(rows: usize) -> Program {
         let a = i as f64 * 0.01;
         let _ = writeln!(text, "G1 X{:.4} Y{:.4}", 50.0 * cosine(a), 50.0 * cosine(a + FRAC_PI_2));
     }
-    Program { name: "lines", text: text + "M2\n", rows }
+    Program { text: text + "M2\n", rows }
 }
 
 /// Arcs with their centres, forth and back with changing radii, some of them helices.
@@ -35,21 +39,21 @@ fn arcs(rows: usize) -> Program {
         let (code, x, centre) = if i % 2 == 0 { ("G2", 2.0 * radius, radius) } else { ("G3", 0.0, -radius) };
         let _ = writeln!(text, "{code} X{x:.4} Y0.0000 Z{z:.4} I{centre:.4} J0.0000");
     }
-    Program { name: "arcs", text: text + "M2\n", rows }
+    Program { text: text + "M2\n", rows }
 }
 
 /// Loops with expressions: 5 rows a turn.
 fn macros(turns: usize) -> Program {
     let body = "#<x> = [#<n> * 0.001 + SIN[#<n>]]\nG1 X[#<x>] Y[#<x> * COS[#<n> / 10] + SQRT[#<n>]]\n#<n> = [#<n> + 1]\n";
     let text = format!("{HEAD}#<n> = 0\no1 while [#<n> LT {turns}]\n{body}o1 endwhile\nM2\n");
-    Program { name: "macro-loops", text, rows: 5 * turns }
+    Program { text, rows: 5 * turns }
 }
 
 /// A loop that calls a subroutine with arguments, in which a branch is taken each other time: 9 and 10 rows a turn.
 fn calls(turns: usize) -> Program {
     let sub = "o100 sub\n#3 = [#1 * 2 + 1]\no101 if [#2 MOD 2 EQ 0]\nG1 X[#3 * 0.01] Y#1\no101 else\nG1 X[#1] Y[#3 * 0.02]\no101 endif\no100 endsub\n";
     let body = format!("o1 while [#10 LT {turns}]\no100 call [#10 / 100] [#10]\n#10 = [#10 + 1]\no1 endwhile\nM2\n");
-    Program { name: "macro-calls", text: format!("{HEAD}{sub}#10 = 0\n{body}"), rows: turns * 10 }
+    Program { text: format!("{HEAD}{sub}#10 = 0\n{body}"), rows: turns * 10 }
 }
 
 /// Holes in rows, with two cycles.
@@ -63,7 +67,7 @@ fn drilling(rows: usize) -> Program {
             _ => writeln!(text, "X{x:.4} Y{y:.4}"),
         };
     }
-    Program { name: "drilling", text: text + "G80\nM2\n", rows }
+    Program { text: text + "G80\nM2\n", rows }
 }
 
 /// A star of lines and arcs with the cutter on its left: inside and outside corners.
@@ -78,7 +82,7 @@ fn compensated(rows: usize) -> Program {
             _ => writeln!(text, "G1 X{x:.4} Y{y:.4}"),
         };
     }
-    Program { name: "compensation", text: text + "G40\nG1 X-100 Y0\nM2\n", rows }
+    Program { text: text + "G40\nG1 X-100 Y0\nM2\n", rows }
 }
 
 /// Cosine by its series: the same text on every machine.

@@ -201,10 +201,15 @@ impl Request {
         self.has_code & !(1 << Group::Motion as u32) == 0 && self.has_letter & bit('T') == 0
     }
 
-    /// G0 or G1 with the letters that it always takes: nothing to check.
+    /// A motion with nothing but letters that it reads: nobody else can claim one.
     fn is_plain_move(&self) -> bool {
         const PLAIN: u32 = bit('X') | bit('Y') | bit('Z') | bit('A') | bit('B') | bit('C') | bit('F') | bit('S') | bit('T');
-        self.only_moves() && self.has_letter & !PLAIN == 0 && matches!(self.motion, Some(Motion::Rapid | Motion::Linear))
+        let others = self.has_letter & !PLAIN;
+        match self.motion {
+            Some(Motion::Rapid | Motion::Linear) => self.only_moves() && others == 0,
+            Some(motion) => self.only_moves() && others & !letters_of(motion.operands()) == 0 && self.has_letter & AXIS_BITS != 0,
+            None => false,
+        }
     }
 
     /// The word with this letter, if the block has one.
@@ -410,6 +415,13 @@ impl Request {
     pub fn tolerance(&self, control: Control) -> f64 {
         if control == Control::Continuous { self.value('P').unwrap_or(0.0) } else { 0.0 }
     }
+}
+
+const AXIS_BITS: u32 = bit('X') | bit('Y') | bit('Z') | bit('A') | bit('B') | bit('C');
+
+/// Bits of these letters.
+fn letters_of(operands: &str) -> u32 {
+    operands.bytes().filter_map(|b| slot(char::from(b))).fold(0, |bits, i| bits | 1 << i)
 }
 
 const fn bit(letter: char) -> u32 {

@@ -263,8 +263,8 @@ impl Action {
 
 /// Whole to within the rounding of decimal numbers.
 pub fn whole(value: f64) -> Option<u32> {
-    let near = value.round();
-    ((value - near).abs() < 1e-6 && (0.0..=f64::from(u32::MAX)).contains(&near)).then_some(near as u32)
+    let near = (value + 0.5) as i64;
+    ((value - near as f64).abs() < 1e-6).then(|| u32::try_from(near).ok()).flatten()
 }
 
 /// The G code with this number.

@@ -3,7 +3,6 @@
 
 use super::names::{plane_name, reference_name, units_name};
 use crate::canon::{Arc, Canon, Direction, MotionMode, Position, ProgramEnd, Step, ToolEntry};
-use std::fmt::Write;
 
 /// Writes rows and counts them.
 #[derive(Clone, Debug)]
@@ -14,12 +13,14 @@ pub struct Listing {
     closed: bool,
     /// Millimetres in the length unit of the tool table.
     table_unit: f64,
+    /// The row in the making.
+    bytes: Vec<u8>,
 }
 
 impl Listing {
     /// No rows yet; `table_unit` is the length unit of the tool table in mm.
     pub fn new(table_unit: f64) -> Self {
-        Listing { rows: 0, opened: false, closed: false, table_unit }
+        Listing { rows: 0, opened: false, closed: false, table_unit, bytes: Vec::new() }
     }
 
     /// The rows of a step, each with its line end, added to `out`. A `PRINT` has none: its text goes to the console.
@@ -38,8 +39,9 @@ impl Listing {
             Canon::Dwell(seconds) => self.quick(step.n, "DWELL(", &[*seconds], out),
             Canon::SetFeedRate(rate) => self.quick(step.n, "SET_FEED_RATE(", &[*rate], out),
             Canon::ArcFeed(a) => {
-                self.head(step.n, out);
-                arc(a, out);
+                self.head(step.n);
+                arc(a, &mut self.bytes);
+                self.flush(out);
             }
             command => {
                 let text = call(command, self.table_unit);
@@ -52,10 +54,17 @@ impl Listing {
 
     /// The calls that programs consist of, without a text between.
     fn quick(&mut self, n: Option<u32>, name: &str, numbers: &[f64], out: &mut String) {
-        self.head(n, out);
-        out.push_str(name);
-        list(out, numbers);
-        out.push_str(")\n");
+        self.head(n);
+        self.bytes.extend_from_slice(name.as_bytes());
+        list(&mut self.bytes, numbers);
+        self.bytes.extend_from_slice(b")\n");
+        self.flush(out);
+    }
+
+    /// The row as text: all of it is ASCII, and one look at it is quicker than one for each number.
+    fn flush(&mut self, out: &mut String) {
+        out.push_str(std::str::from_utf8(&self.bytes).unwrap_or_default());
+        self.bytes.clear();
     }
 
     /// The rows behind the last step.
@@ -75,20 +84,19 @@ impl Listing {
     }
 
     fn row(&mut self, n: Option<u32>, text: &str, out: &mut String) {
-        self.head(n, out);
+        self.head(n);
+        self.flush(out);
         out.push_str(text);
         out.push('\n');
     }
 
     /// Number and N word of a row.
-    fn head(&mut self, n: Option<u32>, out: &mut String) {
+    fn head(&mut self, n: Option<u32>) {
         self.rows = self.rows.wrapping_add(1);
-        padded(out, self.rows);
+        padded(&mut self.bytes, self.rows);
         match n {
-            Some(n) => {
-                let _ = write!(out, " N{n:<6}");
-            }
-            None => out.push_str(" N..... "),
+            Some(n) => self.bytes.extend_from_slice(format!(" N{n:<6}").as_bytes()),
+            None => self.bytes.extend_from_slice(b" N..... "),
         }
     }
 }
@@ -143,43 +151,42 @@ fn switch(command: &Canon, table_unit: f64) -> String {
 }
 
 /// Numbers with 4 decimals and commas between them.
-fn list(out: &mut String, numbers: &[f64]) {
+fn list(out: &mut Vec<u8>, numbers: &[f64]) {
     for (i, number) in numbers.iter().enumerate() {
         if i > 0 {
-            out.push_str(", ");
+            out.extend_from_slice(b", ");
         }
         fixed4(out, *number);
     }
 }
 
 /// `{:.4}`, in a quick way for numbers of usual size that are not near a tie of the rounding.
-fn fixed4(out: &mut String, value: f64) {
+fn fixed4(out: &mut Vec<u8>, value: f64) {
     if value.to_bits() == 0 {
-        return out.push_str("0.0000");
+        return out.extend_from_slice(b"0.0000");
     }
     let scaled = value.abs() * 1e4;
-    let near = scaled.round();
-    if scaled >= 1e13 || ((scaled - near).abs() - 0.5).abs() < 1e-3 || !value.is_finite() {
-        let _ = write!(out, "{value:.4}");
+    let near = (scaled + 0.5) as u64;
+    if scaled >= 1e13 || ((scaled - near as f64).abs() - 0.5).abs() < 1e-3 || !value.is_finite() {
+        out.extend_from_slice(format!("{value:.4}").as_bytes());
         return;
     }
-    let (whole, part) = (near as u64 / 10_000, near as u64 % 10_000);
     let mut text = [b'0'; ROOM];
     text[ROOM - 5] = b'.';
-    digits(&mut text, ROOM, part);
-    let mut start = digits(&mut text, ROOM - 5, whole);
+    digits(&mut text, ROOM, near % 10_000);
+    let mut start = digits(&mut text, ROOM - 5, near / 10_000);
     if value.is_sign_negative() {
         start -= 1;
         text[start] = b'-';
     }
-    out.push_str(std::str::from_utf8(&text[start..]).unwrap_or("0.0000"));
+    out.extend_from_slice(&text[start..]);
 }
 
 /// `{:5}`.
-fn padded(out: &mut String, number: u32) {
+fn padded(out: &mut Vec<u8>, number: u32) {
     let mut text = [b' '; ROOM];
     let start = digits(&mut text, ROOM, u64::from(number)).min(ROOM - 5);
-    out.push_str(std::str::from_utf8(&text[start..]).unwrap_or(""));
+    out.extend_from_slice(&text[start..]);
 }
 
 /// Bytes for a number of 13 digits, a point and a sign.
@@ -199,17 +206,24 @@ fn digits(text: &mut [u8; ROOM], end: usize, mut number: u64) -> usize {
 }
 
 fn six(p: &Position) -> String {
-    let mut out = String::with_capacity(64);
+    let mut out = Vec::with_capacity(64);
     list(&mut out, &<[f64; 6]>::from(*p));
-    out
+    String::from_utf8(out).unwrap_or_default()
 }
 
-fn arc(a: &Arc, out: &mut String) {
-    out.push_str("ARC_FEED(");
+fn arc(a: &Arc, out: &mut Vec<u8>) {
+    out.extend_from_slice(b"ARC_FEED(");
     list(out, &[a.first_end, a.second_end, a.first_axis, a.second_axis]);
-    let _ = write!(out, ", {}, ", a.rotation);
+    out.extend_from_slice(b", ");
+    if a.rotation < 0 {
+        out.push(b'-');
+    }
+    let mut text = [b'0'; ROOM];
+    let start = digits(&mut text, ROOM, u64::from(a.rotation.unsigned_abs()));
+    out.extend_from_slice(&text[start..]);
+    out.extend_from_slice(b", ");
     list(out, &[a.axis_end_point, a.a, a.b, a.c]);
-    out.push_str(")\n");
+    out.extend_from_slice(b")\n");
 }
 
 fn mode_call(mode: MotionMode) -> String {
@@ -239,9 +253,9 @@ mod tests {
     #[test]
     fn row_numbers_are_padded() {
         for number in [0, 7, 99_999, 100_000, u32::MAX] {
-            let mut out = String::new();
+            let mut out = Vec::new();
             padded(&mut out, number);
-            assert_eq!(out, format!("{number:5}"));
+            assert_eq!(out, format!("{number:5}").into_bytes());
         }
     }
 
@@ -256,9 +270,9 @@ mod tests {
                 2 => -((x >> 30) as f64) / 1e6,
                 _ => (x >> 60) as f64 / 16.0 + 0.00005,
             };
-            let mut out = String::new();
+            let mut out = Vec::new();
             fixed4(&mut out, value);
-            assert_eq!(out, format!("{value:.4}"), "{value:?}");
+            assert_eq!(out, format!("{value:.4}").into_bytes(), "{value:?}");
         }
     }
 }

@@ -15,8 +15,8 @@ pub const LOCALS: usize = 30;
 
 /// The number of a parameter, if `value` is one: whole to within 0.0001.
 pub fn index(value: f64) -> Option<u16> {
-    let near = value.round();
-    ((value - near).abs() <= 1e-4 && near >= 1.0 && near <= f64::from(LAST)).then_some(near as u16)
+    let near = (value + 0.5) as i64;
+    ((value - near as f64).abs() <= 1e-4 && (1..=i64::from(LAST)).contains(&near)).then_some(near as u16)
 }
 
 /// Values of all parameters that a program can set.

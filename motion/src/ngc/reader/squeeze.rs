@@ -16,23 +16,26 @@ pub struct Squeezed {
 impl Squeezed {
     /// Fills the buffers from `bytes` at byte `start` of the file; comments go to `arena`.
     pub fn fill(&mut self, bytes: &[u8], start: usize, arena: &mut Arena) -> Result<(), Fault> {
-        self.bytes.clear();
-        self.at.clear();
-        let mut i = 0;
+        self.bytes.resize(bytes.len(), 0);
+        self.at.resize(bytes.len() + 1, 0);
+        let (mut i, mut kept) = (0, 0);
         while let Some(&byte) = bytes.get(i) {
             match byte {
-                b' ' | b'\t' => {}
                 b'(' => i = comment(bytes, i, start, arena)?,
                 // LinuxCNC drops it as well, whatever it says.
                 b';' => break,
                 _ => {
-                    self.bytes.push(byte.to_ascii_lowercase());
-                    self.at.push((start + i) as u32);
+                    // A blank is written too, and the next byte over it: no branch that the processor would have to guess.
+                    self.bytes[kept] = byte.to_ascii_lowercase();
+                    self.at[kept] = (start + i) as u32;
+                    kept += usize::from(!matches!(byte, b' ' | b'\t'));
                 }
             }
             i += 1;
         }
-        self.at.push((start + i.min(bytes.len())) as u32);
+        self.bytes.truncate(kept);
+        self.at.truncate(kept + 1);
+        self.at[kept] = (start + i.min(bytes.len())) as u32;
         Ok(())
     }
 }
