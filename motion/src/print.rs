@@ -5,6 +5,7 @@
 //! `PROGRAM_END()` whichever word ended the program (it reads back as M2), a tolerance behind `CANON_CONTINUOUS`. A user M code is
 //! `USER_M_CODE(number)` with `P` and `Q` words behind the number if it has them.
 
+mod back;
 mod names;
 mod parse;
 pub mod rs274;

@@ -103,19 +103,18 @@ fn list(args: &Args, interpreter: &mut Interpreter, host: &Subroutines) -> Resul
         ),
         None => None,
     };
-    let mut console = std::io::BufWriter::with_capacity(1 << 16, std::io::stdout().lock());
-    let mut file = file.map(|file| std::io::BufWriter::with_capacity(1 << 16, file));
-    let (mut listing, mut rows, mut wrong) = (Listing::new(TABLE_MM), String::new(), false);
-    loop {
-        rows.clear();
+    let mut out = Output { file, rows: Vec::new(), gone: false };
+    let (mut listing, mut wrong) = (Listing::new(TABLE_MM), false);
+    while !out.gone {
         match interpreter.next() {
             Some(Ok(step)) => {
                 if let Canon::Print(text) = &step.command {
-                    let _ = writeln!(console, "{text}");
+                    out.print(text);
                 }
-                listing.step(&step, &mut rows);
+                listing.step(&step, &mut out.rows);
             }
             Some(Err(diag)) => {
+                out.flush();
                 complain(&diag, host);
                 if args.on_error == "0" {
                     interpreter.go_on();
@@ -125,22 +124,42 @@ fn list(args: &Args, interpreter: &mut Interpreter, host: &Subroutines) -> Resul
             }
             None => break,
         }
-        let written = match &mut file {
-            Some(file) => file.write_all(rows.as_bytes()),
-            None => console.write_all(rows.as_bytes()),
-        };
-        if written.is_err() {
-            return Ok(wrong); // the reader has gone
+        if out.rows.len() > 1 << 15 {
+            out.flush();
         }
     }
-    rows.clear();
-    listing.finish(&mut rows);
-    let _ = match &mut file {
-        Some(file) => file.write_all(rows.as_bytes()).and_then(|()| file.flush()),
-        None => console.write_all(rows.as_bytes()),
-    };
-    let _ = console.flush();
+    listing.finish(&mut out.rows);
+    out.flush();
     Ok(wrong)
+}
+
+/// The listing on its way to a file or the console.
+struct Output {
+    file: Option<std::fs::File>,
+    rows: Vec<u8>,
+    /// The reader has gone.
+    gone: bool,
+}
+
+impl Output {
+    fn flush(&mut self) {
+        let written = match &mut self.file {
+            Some(file) => file.write_all(&self.rows),
+            None => std::io::stdout().lock().write_all(&self.rows).and_then(|()| std::io::stdout().flush()),
+        };
+        self.gone |= written.is_err();
+        self.rows.clear();
+    }
+
+    /// Text for the console, in order with what is listed there.
+    fn print(&mut self, text: &str) {
+        if self.file.is_none() {
+            self.rows.extend_from_slice(text.as_bytes());
+            self.rows.push(b'\n');
+        } else {
+            self.gone |= writeln!(std::io::stdout(), "{text}").is_err();
+        }
+    }
 }
 
 /// The message, and the row that it is about.

@@ -16,7 +16,8 @@ const SAME_PLACE: f64 = 1e-5;
 
 /// Distance of `p` and `q`.
 pub fn distance(p: Point, q: Point) -> f64 {
-    hypot(q[0] - p[0], q[1] - p[1])
+    let (dx, dy) = (q[0] - p[0], q[1] - p[1]);
+    (dx * dx + dy * dy).sqrt()
 }
 
 /// Centre of the arc of radius `r` from `start` to `end`; `r` > 0: at most half a turn, `r` < 0: at least half a turn (R1-57).

@@ -1,6 +1,7 @@
 //! The listing of LinuxCNC's stand-alone interpreter: `    7 N..... STRAIGHT_FEED(1.0000, ...)`. What scripts that read it expect.
 //! Names and arguments are those of that program where they differ from the report's. Runs: background.
 
+use super::back::Back;
 use super::names::{plane_name, reference_name, units_name};
 use crate::canon::{Arc, Canon, Direction, MotionMode, Position, ProgramEnd, Step, ToolEntry};
 
@@ -14,17 +15,17 @@ pub struct Listing {
     /// Millimetres in the length unit of the tool table.
     table_unit: f64,
     /// The row in the making.
-    bytes: Vec<u8>,
+    back: Back,
 }
 
 impl Listing {
     /// No rows yet; `table_unit` is the length unit of the tool table in mm.
     pub fn new(table_unit: f64) -> Self {
-        Listing { rows: 0, opened: false, closed: false, table_unit, bytes: Vec::new() }
+        Listing { rows: 0, opened: false, closed: false, table_unit, back: Back::default() }
     }
 
-    /// The rows of a step, each with its line end, added to `out`. A `PRINT` has none: its text goes to the console.
-    pub fn step(&mut self, step: &Step, out: &mut String) {
+    /// The rows of a step in UTF-8, each with its line end, added to `out`. A `PRINT` has none: its text goes to the console.
+    pub fn step(&mut self, step: &Step, out: &mut Vec<u8>) {
         if !self.opened && step.line > 0 {
             self.open(out);
         }
@@ -38,11 +39,7 @@ impl Listing {
             Canon::StraightFeed(p) => self.quick(step.n, "STRAIGHT_FEED(", &<[f64; 6]>::from(*p), out),
             Canon::Dwell(seconds) => self.quick(step.n, "DWELL(", &[*seconds], out),
             Canon::SetFeedRate(rate) => self.quick(step.n, "SET_FEED_RATE(", &[*rate], out),
-            Canon::ArcFeed(a) => {
-                self.head(step.n);
-                arc(a, &mut self.bytes);
-                self.flush(out);
-            }
+            Canon::ArcFeed(a) => self.arc(step.n, a, out),
             command => {
                 let text = call(command, self.table_unit);
                 if !text.is_empty() {
@@ -52,23 +49,44 @@ impl Listing {
         }
     }
 
-    /// The calls that programs consist of, without a text between.
-    fn quick(&mut self, n: Option<u32>, name: &str, numbers: &[f64], out: &mut String) {
-        self.head(n);
-        self.bytes.extend_from_slice(name.as_bytes());
-        list(&mut self.bytes, numbers);
-        self.bytes.extend_from_slice(b")\n");
-        self.flush(out);
+    /// The calls that programs consist of.
+    fn quick(&mut self, n: Option<u32>, name: &str, numbers: &[f64], out: &mut Vec<u8>) {
+        self.back.end(")\n");
+        self.back.numbers(numbers);
+        self.head(n, name, out);
     }
 
-    /// The row as text: all of it is ASCII, and one look at it is quicker than one for each number.
-    fn flush(&mut self, out: &mut String) {
-        out.push_str(std::str::from_utf8(&self.bytes).unwrap_or_default());
-        self.bytes.clear();
+    fn arc(&mut self, n: Option<u32>, a: &Arc, out: &mut Vec<u8>) {
+        let back = &mut self.back;
+        back.end(")\n");
+        back.numbers(&[a.axis_end_point, a.a, a.b, a.c]);
+        back.text(", ");
+        back.digits(u64::from(a.rotation.unsigned_abs()));
+        back.text(if a.rotation < 0 { ", -" } else { ", " });
+        back.numbers(&[a.first_end, a.second_end, a.first_axis, a.second_axis]);
+        self.head(n, "ARC_FEED(", out);
+    }
+
+    /// Name, N word and number in front of a row, which is then whole.
+    fn head(&mut self, n: Option<u32>, name: &str, out: &mut Vec<u8>) {
+        self.rows = self.rows.wrapping_add(1);
+        let back = &mut self.back;
+        back.text(name);
+        match n {
+            None => back.text(" N..... "),
+            Some(n) => {
+                back.padding(n.checked_ilog10().map_or(5, |log| 5_u32.saturating_sub(log)) as usize);
+                back.digits(u64::from(n));
+                back.text(" N");
+            }
+        }
+        back.digits(u64::from(self.rows));
+        back.padding(self.rows.checked_ilog10().map_or(4, |log| 4_u32.saturating_sub(log)) as usize);
+        out.extend_from_slice(back.bytes());
     }
 
     /// The rows behind the last step.
-    pub fn finish(&mut self, out: &mut String) {
+    pub fn finish(&mut self, out: &mut Vec<u8>) {
         if !self.opened {
             self.open(out);
         }
@@ -78,26 +96,16 @@ impl Listing {
         self.row(None, "ON_RESET()", out);
     }
 
-    fn open(&mut self, out: &mut String) {
+    fn open(&mut self, out: &mut Vec<u8>) {
         self.opened = true;
         self.row(None, "ON_RESET()", out);
     }
 
-    fn row(&mut self, n: Option<u32>, text: &str, out: &mut String) {
-        self.head(n);
-        self.flush(out);
-        out.push_str(text);
-        out.push('\n');
-    }
-
-    /// Number and N word of a row.
-    fn head(&mut self, n: Option<u32>) {
-        self.rows = self.rows.wrapping_add(1);
-        padded(&mut self.bytes, self.rows);
-        match n {
-            Some(n) => self.bytes.extend_from_slice(format!(" N{n:<6}").as_bytes()),
-            None => self.bytes.extend_from_slice(b" N..... "),
-        }
+    fn row(&mut self, n: Option<u32>, text: &str, out: &mut Vec<u8>) {
+        self.back.end("");
+        self.head(n, "", out);
+        out.extend_from_slice(text.as_bytes());
+        out.push(b'\n');
     }
 }
 
@@ -150,80 +158,10 @@ fn switch(command: &Canon, table_unit: f64) -> String {
     }
 }
 
-/// Numbers with 4 decimals and commas between them.
-fn list(out: &mut Vec<u8>, numbers: &[f64]) {
-    for (i, number) in numbers.iter().enumerate() {
-        if i > 0 {
-            out.extend_from_slice(b", ");
-        }
-        fixed4(out, *number);
-    }
-}
-
-/// `{:.4}`, in a quick way for numbers of usual size that are not near a tie of the rounding.
-fn fixed4(out: &mut Vec<u8>, value: f64) {
-    if value.to_bits() == 0 {
-        return out.extend_from_slice(b"0.0000");
-    }
-    let scaled = value.abs() * 1e4;
-    let near = (scaled + 0.5) as u64;
-    if scaled >= 1e13 || ((scaled - near as f64).abs() - 0.5).abs() < 1e-3 || !value.is_finite() {
-        out.extend_from_slice(format!("{value:.4}").as_bytes());
-        return;
-    }
-    let mut text = [b'0'; ROOM];
-    text[ROOM - 5] = b'.';
-    digits(&mut text, ROOM, near % 10_000);
-    let mut start = digits(&mut text, ROOM - 5, near / 10_000);
-    if value.is_sign_negative() {
-        start -= 1;
-        text[start] = b'-';
-    }
-    out.extend_from_slice(&text[start..]);
-}
-
-/// `{:5}`.
-fn padded(out: &mut Vec<u8>, number: u32) {
-    let mut text = [b' '; ROOM];
-    let start = digits(&mut text, ROOM, u64::from(number)).min(ROOM - 5);
-    out.extend_from_slice(&text[start..]);
-}
-
-/// Bytes for a number of 13 digits, a point and a sign.
-const ROOM: usize = 24;
-
-/// Writes `number` so that it ends before `end`; where it starts.
-fn digits(text: &mut [u8; ROOM], end: usize, mut number: u64) -> usize {
-    let mut i = end;
-    loop {
-        i -= 1;
-        text[i] = b'0' + (number % 10) as u8;
-        number /= 10;
-        if number == 0 || i == 0 {
-            return i;
-        }
-    }
-}
-
 fn six(p: &Position) -> String {
-    let mut out = Vec::with_capacity(64);
-    list(&mut out, &<[f64; 6]>::from(*p));
-    String::from_utf8(out).unwrap_or_default()
-}
-
-fn arc(a: &Arc, out: &mut Vec<u8>) {
-    out.extend_from_slice(b"ARC_FEED(");
-    list(out, &[a.first_end, a.second_end, a.first_axis, a.second_axis]);
-    out.extend_from_slice(b", ");
-    if a.rotation < 0 {
-        out.push(b'-');
-    }
-    let mut text = [b'0'; ROOM];
-    let start = digits(&mut text, ROOM, u64::from(a.rotation.unsigned_abs()));
-    out.extend_from_slice(&text[start..]);
-    out.extend_from_slice(b", ");
-    list(out, &[a.axis_end_point, a.a, a.b, a.c]);
-    out.extend_from_slice(b")\n");
+    let mut back = Back::default();
+    back.numbers(&<[f64; 6]>::from(*p));
+    String::from_utf8_lossy(back.bytes()).into_owned()
 }
 
 fn mode_call(mode: MotionMode) -> String {
@@ -248,31 +186,17 @@ fn tool_entry(entry: &ToolEntry, unit: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{fixed4, padded};
+    use super::*;
 
     #[test]
-    fn row_numbers_are_padded() {
-        for number in [0, 7, 99_999, 100_000, u32::MAX] {
+    fn numbers_and_n_words_are_padded() {
+        for (rows, n) in [(0, None), (98, Some(0)), (99_998, Some(7)), (99_999, Some(999_999)), (4_000_000_000, Some(u32::MAX))] {
+            let mut listing = Listing { rows, opened: true, ..Listing::new(1.0) };
             let mut out = Vec::new();
-            padded(&mut out, number);
-            assert_eq!(out, format!("{number:5}").into_bytes());
-        }
-    }
-
-    #[test]
-    fn the_quick_way_prints_the_same() {
-        let mut x = 99_u64;
-        for i in 0..200_000 {
-            x = x.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            let value = match i % 4 {
-                0 => f64::from_bits(x),
-                1 => (x >> 40) as f64 / 100_000.0,
-                2 => -((x >> 30) as f64) / 1e6,
-                _ => (x >> 60) as f64 / 16.0 + 0.00005,
-            };
-            let mut out = Vec::new();
-            fixed4(&mut out, value);
-            assert_eq!(out, format!("{value:.4}").into_bytes(), "{value:?}");
+            let step = Step { block: 1, line: 1, n, command: Canon::Dwell(0.5) };
+            listing.step(&step, &mut out);
+            let n = n.map_or("..... ".to_owned(), |n| format!("{n:<6}"));
+            assert_eq!(out, format!("{:5} N{n}DWELL(0.5000)\n", rows + 1).into_bytes());
         }
     }
 }

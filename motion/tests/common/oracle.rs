@@ -62,7 +62,7 @@ pub fn ours(text: &str) -> (Vec<String>, bool) {
         calls_max: 9,
         ..Options::default()
     };
-    let (mut listing, mut out, mut right) = (Listing::new(25.4), String::new(), true);
+    let (mut listing, mut out, mut right) = (Listing::new(25.4), Vec::new(), true);
     for step in Interpreter::new(SourceId(0), text, options).take(100_000) {
         match step {
             Ok(step) => listing.step(&step, &mut out),
@@ -70,7 +70,7 @@ pub fn ours(text: &str) -> (Vec<String>, bool) {
         }
     }
     listing.finish(&mut out);
-    (calls(&out), right)
+    (calls(&String::from_utf8_lossy(&out)), right)
 }
 
 /// Rows of the form `   12 N.....  NAME(...)` without number, and without what LinuxCNC says in its own words.

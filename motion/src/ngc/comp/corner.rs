@@ -2,7 +2,7 @@
 //! a radius above zero lies to the left of the direction.
 
 use crate::ngc::arc::{Point, distance};
-use libm::{atan2, hypot};
+use libm::atan2;
 use std::f64::consts::{PI, TAU};
 
 /// A line or an arc.
@@ -203,6 +203,6 @@ pub(super) fn dot(a: Point, b: Point) -> f64 {
 }
 
 fn unit(a: Point) -> Point {
-    let length = hypot(a[0], a[1]);
+    let length = dot(a, a).sqrt();
     if length > 0.0 { scale(a, 1.0 / length) } else { [1.0, 0.0] }
 }

@@ -40,6 +40,7 @@ pub struct Out<'a> {
 
 impl Out<'_> {
     /// Adds a command.
+    #[inline]
     pub fn emit(&mut self, command: Canon) {
         self.queue.push_back(Step { block: self.block, line: self.line, n: self.n, command });
     }
@@ -97,9 +98,17 @@ pub type Done = Result<(), Box<Diag>>;
 
 impl Run<'_, '_> {
     /// Adds a command; it waits behind a move that waits.
+    #[inline]
     pub fn emit(&mut self, command: Canon) {
+        if !self.state.comp.waits() {
+            return self.out.emit(command);
+        }
+        self.wait(command);
+    }
+
+    fn wait(&mut self, command: Canon) {
         let said = matches!(command, Canon::Comment(_) | Canon::Message(_) | Canon::Print(_) | Canon::Log(_));
-        if !self.state.comp.waits() || (said && self.state.options.drop_in) {
+        if said && self.state.options.drop_in {
             return self.out.emit(command);
         }
         let step = Step { block: self.out.block, line: self.out.line, n: self.out.n, command };
