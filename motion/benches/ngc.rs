@@ -86,10 +86,9 @@ fn open(path: &Path) -> Interpreter {
 }
 
 fn interpret(path: &Path) {
-    for step in open(path) {
-        if let Err(diag) = step {
-            panic!("{}: {diag:?}", path.display());
-        }
+    let mut interpreter = open(path);
+    while let Some(step) = interpreter.next_ref() {
+        step.expect("a right program");
     }
 }
 
@@ -97,8 +96,9 @@ fn interpret(path: &Path) {
 fn list(path: &Path) {
     let mut out = std::fs::File::create(LISTING).expect("a place for the listing");
     let (mut listing, mut rows) = (Listing::new(25.4), Vec::new());
-    for step in open(path) {
-        listing.step(&step.expect("a right program"), &mut rows);
+    let mut interpreter = open(path);
+    while let Some(step) = interpreter.next_ref() {
+        listing.step(step.expect("a right program"), &mut rows);
         if rows.len() > 1 << 15 {
             out.write_all(&rows).expect("room for the listing");
             rows.clear();

@@ -106,12 +106,12 @@ fn list(args: &Args, interpreter: &mut Interpreter, host: &Subroutines) -> Resul
     let mut out = Output { file, rows: Vec::new(), gone: false };
     let (mut listing, mut wrong) = (Listing::new(TABLE_MM), false);
     while !out.gone {
-        match interpreter.next() {
+        match interpreter.next_ref() {
             Some(Ok(step)) => {
                 if let Canon::Print(text) = &step.command {
                     out.print(text);
                 }
-                listing.step(&step, &mut out.rows);
+                listing.step(step, &mut out.rows);
             }
             Some(Err(diag)) => {
                 out.flush();

@@ -31,6 +31,8 @@ pub struct Interpreter {
     request: Request,
     stack: Stack,
     queue: VecDeque<Step>,
+    /// The first command of the queue has been looked at.
+    seen: bool,
     diags: Vec<Diag>,
     failed: Option<Box<Diag>>,
     block: u32,
@@ -84,6 +86,7 @@ impl Interpreter {
             request: Request::default(),
             stack: Stack::new(),
             queue,
+            seen: false,
             diags: Vec::new(),
             failed: None,
             block: 0,
@@ -325,18 +328,33 @@ impl Interpreter {
     }
 }
 
-impl Iterator for Interpreter {
-    type Item = Result<Step, Box<Diag>>;
+impl Interpreter {
+    /// The same as `next`, but the command is looked at where it stands, which saves a copy. It is gone with the next call.
+    pub fn next_ref(&mut self) -> Option<Result<&Step, Box<Diag>>> {
+        self.go_past_seen();
+        if self.queue.is_empty()
+            && let Some(diag) = self.fill_queue()
+        {
+            return Some(Err(diag));
+        }
+        self.seen = !self.queue.is_empty();
+        self.queue.front().map(Ok)
+    }
 
-    /// The next command, or the error of the next block: then nothing of that block has been given out (in the drop-in form: what stands
-    /// before the error), and nothing follows. Warnings are left to [`check`].
-    fn next(&mut self) -> Option<Self::Item> {
+    fn go_past_seen(&mut self) {
+        if std::mem::take(&mut self.seen) {
+            self.queue.pop_front();
+        }
+    }
+
+    /// Reads rows until there is a command or the program has ended; or the error of the row.
+    fn fill_queue(&mut self) -> Option<Box<Diag>> {
         loop {
-            if let Some(step) = self.queue.pop_front() {
-                return Some(Ok(step));
+            if !self.queue.is_empty() {
+                return None;
             }
             if let Some(diag) = self.failed.take() {
-                return Some(Err(diag));
+                return Some(diag);
             }
             if self.ended {
                 return None;
@@ -347,6 +365,22 @@ impl Iterator for Interpreter {
                 self.ended |= self.failed.is_some();
             }
         }
+    }
+}
+
+impl Iterator for Interpreter {
+    type Item = Result<Step, Box<Diag>>;
+
+    /// The next command, or the error of the next block: then nothing of that block has been given out (in the drop-in form: what stands
+    /// before the error), and nothing follows. Warnings are left to [`check`].
+    fn next(&mut self) -> Option<Self::Item> {
+        self.go_past_seen();
+        if self.queue.is_empty()
+            && let Some(diag) = self.fill_queue()
+        {
+            return Some(Err(diag));
+        }
+        self.queue.pop_front().map(Ok)
     }
 }
 

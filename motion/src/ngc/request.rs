@@ -204,10 +204,9 @@ impl Request {
     /// A motion with nothing but letters that it reads: nobody else can claim one.
     fn is_plain_move(&self) -> bool {
         const PLAIN: u32 = bit('X') | bit('Y') | bit('Z') | bit('A') | bit('B') | bit('C') | bit('F') | bit('S') | bit('T');
-        let others = self.has_letter & !PLAIN;
         match self.motion {
-            Some(Motion::Rapid | Motion::Linear) => self.only_moves() && others == 0,
-            Some(motion) => self.only_moves() && others & !letters_of(motion.operands()) == 0 && self.has_letter & AXIS_BITS != 0,
+            Some(Motion::Rapid | Motion::Linear) => self.only_moves() && self.has_letter & !PLAIN == 0,
+            Some(motion) => self.only_moves() && self.has_letter & !(PLAIN & !AXIS_BITS | letters_of(motion.operands())) == 0,
             None => false,
         }
     }

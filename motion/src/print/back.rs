@@ -35,6 +35,14 @@ impl Back {
         self.start = start;
     }
 
+    /// Puts bytes of ASCII in front, if there is room.
+    pub fn front(&mut self, bytes: &[u8]) {
+        if let Some(start) = self.start.checked_sub(bytes.len()) {
+            self.text[start..self.start].copy_from_slice(bytes);
+            self.start = start;
+        }
+    }
+
     /// Blanks.
     pub fn padding(&mut self, n: usize) {
         for _ in 0..n {
@@ -94,9 +102,56 @@ impl Back {
     }
 }
 
+/// A number that counts in decimals, at least five places wide: adding one to text is quicker than making text of a number.
+#[derive(Clone, Debug)]
+pub struct Count {
+    text: [u8; COUNT_ROOM],
+    start: usize,
+}
+
+const COUNT_ROOM: usize = 12;
+const COUNT_WIDTH: usize = 5;
+
+impl Default for Count {
+    fn default() -> Self {
+        let mut text = [b' '; COUNT_ROOM];
+        text[COUNT_ROOM - 1] = b'0';
+        Count { text, start: COUNT_ROOM - COUNT_WIDTH }
+    }
+}
+
+impl Count {
+    /// One more.
+    pub fn next(&mut self) -> &[u8] {
+        for i in (0..COUNT_ROOM).rev() {
+            match self.text[i] {
+                b'9' => self.text[i] = b'0',
+                b' ' => {
+                    self.text[i] = b'1';
+                    self.start = self.start.min(i);
+                    break;
+                }
+                _ => {
+                    self.text[i] += 1;
+                    break;
+                }
+            }
+        }
+        &self.text[self.start..]
+    }
+}
+
 #[cfg(test)]
 mod tests {
-    use super::Back;
+    use super::{Back, Count};
+
+    #[test]
+    fn counts() {
+        let mut count = Count::default();
+        for i in 1..=200_000 {
+            assert_eq!(count.next(), format!("{i:5}").as_bytes());
+        }
+    }
 
     #[test]
     fn the_quick_way_prints_the_same() {

@@ -1,14 +1,14 @@
 //! The listing of LinuxCNC's stand-alone interpreter: `    7 N..... STRAIGHT_FEED(1.0000, ...)`. What scripts that read it expect.
 //! Names and arguments are those of that program where they differ from the report's. Runs: background.
 
-use super::back::Back;
+use super::back::{Back, Count};
 use super::names::{plane_name, reference_name, units_name};
 use crate::canon::{Arc, Canon, Direction, MotionMode, Position, ProgramEnd, Step, ToolEntry};
 
 /// Writes rows and counts them.
 #[derive(Clone, Debug)]
 pub struct Listing {
-    rows: u32,
+    count: Count,
     /// The modes before the program have been listed.
     opened: bool,
     closed: bool,
@@ -21,7 +21,7 @@ pub struct Listing {
 impl Listing {
     /// No rows yet; `table_unit` is the length unit of the tool table in mm.
     pub fn new(table_unit: f64) -> Self {
-        Listing { rows: 0, opened: false, closed: false, table_unit, back: Back::default() }
+        Listing { count: Count::default(), opened: false, closed: false, table_unit, back: Back::default() }
     }
 
     /// The rows of a step in UTF-8, each with its line end, added to `out`. A `PRINT` has none: its text goes to the console.
@@ -50,6 +50,7 @@ impl Listing {
     }
 
     /// The calls that programs consist of.
+    #[inline]
     fn quick(&mut self, n: Option<u32>, name: &str, numbers: &[f64], out: &mut Vec<u8>) {
         self.back.end(")\n");
         self.back.numbers(numbers);
@@ -69,7 +70,6 @@ impl Listing {
 
     /// Name, N word and number in front of a row, which is then whole.
     fn head(&mut self, n: Option<u32>, name: &str, out: &mut Vec<u8>) {
-        self.rows = self.rows.wrapping_add(1);
         let back = &mut self.back;
         back.text(name);
         match n {
@@ -80,8 +80,7 @@ impl Listing {
                 back.text(" N");
             }
         }
-        back.digits(u64::from(self.rows));
-        back.padding(self.rows.checked_ilog10().map_or(4, |log| 4_u32.saturating_sub(log)) as usize);
+        back.front(self.count.next());
         out.extend_from_slice(back.bytes());
     }
 
@@ -190,13 +189,13 @@ mod tests {
 
     #[test]
     fn numbers_and_n_words_are_padded() {
-        for (rows, n) in [(0, None), (98, Some(0)), (99_998, Some(7)), (99_999, Some(999_999)), (4_000_000_000, Some(u32::MAX))] {
-            let mut listing = Listing { rows, opened: true, ..Listing::new(1.0) };
+        let mut listing = Listing { opened: true, ..Listing::new(1.0) };
+        for (row, n) in [(1, None), (2, Some(0)), (3, Some(7)), (4, Some(999_999)), (5, Some(u32::MAX))] {
             let mut out = Vec::new();
             let step = Step { block: 1, line: 1, n, command: Canon::Dwell(0.5) };
             listing.step(&step, &mut out);
             let n = n.map_or("..... ".to_owned(), |n| format!("{n:<6}"));
-            assert_eq!(out, format!("{:5} N{n}DWELL(0.5000)\n", rows + 1).into_bytes());
+            assert_eq!(out, format!("{:5} N{n}DWELL(0.5000)\n", row).into_bytes());
         }
     }
 }

@@ -175,9 +175,13 @@ impl Cycle<'_, '_, '_> {
     }
 
     fn go(&mut self, at: [f64; 2], third: f64, feed: bool) {
-        let to = self.place(at, third);
-        let command = if feed { Canon::StraightFeed(to) } else { Canon::StraightTraverse(to) };
-        motion::checked(self.run, command, self.run.request.span);
+        let (to, span) = (self.place(at, third), self.run.request.span);
+        // Each way makes its command where it is put: a copy would cost as much as all the rest.
+        if feed {
+            motion::checked(self.run, Canon::StraightFeed(to), span);
+        } else {
+            motion::checked(self.run, Canon::StraightTraverse(to), span);
+        }
     }
 
     fn traverse_to(&mut self, third: f64) {

@@ -106,6 +106,7 @@ impl Run<'_, '_> {
         self.wait(command);
     }
 
+    #[cold]
     fn wait(&mut self, command: Canon) {
         let said = matches!(command, Canon::Comment(_) | Canon::Message(_) | Canon::Print(_) | Canon::Log(_));
         if said && self.state.options.drop_in {

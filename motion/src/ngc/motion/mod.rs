@@ -78,12 +78,18 @@ fn command(run: &mut Run, motion: Motion, end: Position) -> Result<Canon, Box<Di
 }
 
 /// Emits a motion command after the checks of travel and grid.
+#[inline]
 pub fn checked(run: &mut Run, command: Canon, at: Span) {
     if run.state.options.travel.is_some() || run.state.options.grid.is_some() {
-        let found = limits::check(&command, at, &run.state.modal, &run.state.options);
-        run.out.diags.extend(found);
+        check(run, &command, at);
     }
     run.emit(command);
+}
+
+#[cold]
+fn check(run: &mut Run, command: &Canon, at: Span) {
+    let found = limits::check(command, at, &run.state.modal, &run.state.options);
+    run.out.diags.extend(found);
 }
 
 /// The feed that a code needs.
