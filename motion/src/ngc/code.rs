@@ -143,10 +143,7 @@ impl Code {
     /// Adds the text of a comment: UTF-8, or else Latin-1.
     pub fn add_text(&mut self, bytes: &[u8]) -> Slice {
         let start = self.texts.len() as u32;
-        match std::str::from_utf8(bytes) {
-            Ok(text) => self.texts.push_str(text),
-            Err(_) => self.texts.extend(bytes.iter().map(|&b| char::from(b))),
-        }
+        self.texts.push_str(&super::text::line(bytes));
         Slice { start, end: self.texts.len() as u32 }
     }
 

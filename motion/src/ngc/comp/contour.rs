@@ -153,6 +153,9 @@ fn third_axis(run: &mut Run, command: Canon) -> Done {
         motion::checked(run, command, at);
         return Ok(());
     }
+    if run.state.comp.is_full() {
+        return Err(Box::new(super::too_many_wait(at)));
+    }
     let Out { block, line, n, .. } = *run.out;
     run.state.comp.held.push(Held { step: Step { block, line, n, command }, follows: true });
     Ok(())

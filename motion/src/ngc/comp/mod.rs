@@ -13,7 +13,7 @@ use super::word::{Action, Group};
 use crate::canon::{Plane, Step};
 use contour::Pending;
 pub use contour::{follow, release};
-use takt_base::Diag;
+use takt_base::{Code, Diag, Span};
 
 /// The state of compensation.
 #[derive(Clone, Debug, Default)]
@@ -29,6 +29,9 @@ pub struct Comp {
     /// What waits behind it.
     held: Vec<Held>,
 }
+
+/// Commands that may wait behind a move.
+const HELD_MAX: usize = 20_000;
 
 /// A command behind the move that waits.
 #[derive(Clone, Debug)]
@@ -47,6 +50,11 @@ impl Comp {
     /// True while a move waits for the next one.
     pub fn waits(&self) -> bool {
         self.pending.is_some()
+    }
+
+    /// True if no more commands can wait.
+    pub fn is_full(&self) -> bool {
+        self.held.len() >= HELD_MAX
     }
 
     /// Takes a command that comes while a move waits.
@@ -148,6 +156,12 @@ impl Run<'_, '_> {
     pub fn flush_compensation(&mut self) {
         contour::release(self.state, self.out);
     }
+}
+
+/// Compensation ends a move when it knows the next one: what lies between has to wait.
+pub fn too_many_wait(at: Span) -> Diag {
+    let label = "20000 commands wait for the next move in the plane";
+    Diag::new(Code::ProgramTooLarge, at, label).help("write G40 before work without motion in the plane")
 }
 
 /// Left is 1, right is -1.

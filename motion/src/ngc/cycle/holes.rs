@@ -10,7 +10,7 @@ use takt_base::{Code, Diag};
 /// How far above the last depth a peck ends its rapid, in mm: a hundredth of an inch.
 const PECK_MM: f64 = 0.254;
 /// Pecks that the holes of one block may have.
-const PECKS_MAX: f64 = 100_000.0;
+const PECKS_MAX: f64 = 50_000.0;
 
 impl Cycle<'_, '_, '_> {
     pub(super) fn hole(&mut self, motion: Motion) -> Done {

@@ -11,6 +11,9 @@ use super::request::{bad_value, missing, not_now};
 use crate::canon::{Canon, MotionMode, Plane, Position};
 use takt_base::{Code, Diag};
 
+/// Holes that one block may ask for.
+const REPEATS_MAX: u32 = 20_000;
+
 /// Words of the cycle in force, for blocks that leave them out. In length units, seconds.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub struct Sticky {
@@ -158,7 +161,7 @@ fn words(run: &Run, motion: Motion) -> Result<Sticky, Box<Diag>> {
 
 fn repeats(run: &Run) -> Result<u32, Box<Diag>> {
     let Some(word) = run.request.word('L') else { return Ok(1) };
-    match word.whole().filter(|&l| (1..=100_000).contains(&l)) {
+    match word.whole().filter(|&l| (1..=REPEATS_MAX).contains(&l)) {
         Some(times) => Ok(times),
         None => Err(Box::new(bad_value(word, "not a number of holes", "write a whole number from 1"))),
     }

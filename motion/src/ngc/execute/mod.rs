@@ -112,6 +112,9 @@ impl Run<'_, '_> {
         if said && self.state.options.drop_in {
             return self.out.emit(command);
         }
+        if self.state.comp.is_full() {
+            return self.out.diags.push(super::comp::too_many_wait(self.request.span));
+        }
         let step = Step { block: self.out.block, line: self.out.line, n: self.out.n, command };
         self.state.comp.hold(step);
     }

@@ -240,10 +240,12 @@ pub fn name(cursor: &mut Cursor, arena: &mut Arena) -> Result<Option<Name>, Faul
     if bytes.is_empty() {
         return Err(cursor.fault(Code::BadParameter, from, "the name is empty", "write #<name>"));
     }
-    let name = match std::str::from_utf8(bytes) {
-        Ok(text) => arena.names.intern(text),
-        Err(_) => arena.names.intern(&crate::ngc::text::decoded(bytes)),
-    };
+    let text = crate::ngc::text::line(bytes);
+    if arena.names.is_full() && arena.names.find(&text).is_none() {
+        let help = "count with numbered parameters, such as #[100 + #1], in place of many names";
+        return Err(cursor.fault(Code::ProgramTooLarge, from, "the program has too many names: 50000, or 4 MiB of them", help));
+    }
+    let name = arena.names.intern(&text);
     cursor.pos += length + 1;
     Ok(Some(name))
 }

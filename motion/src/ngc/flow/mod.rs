@@ -2,6 +2,7 @@
 //! Runs: background. Invariant: blocks and calls are bounded; a row that was compiled in a loop or subroutine is not read again.
 
 pub mod files;
+mod kept;
 pub mod owords;
 mod skip;
 
@@ -59,15 +60,8 @@ struct Frame {
 
 /// Open blocks that a call may have.
 const BLOCKS_MAX: usize = 1000;
-/// Bytes of compiled rows that are kept; beyond it rows are read again.
-const KEPT_MAX: usize = 16 << 20;
-
-/// A row that is kept.
-#[derive(Clone, Copy, Debug)]
-struct Kept {
-    row: Row,
-    next: Place,
-}
+/// Subroutines that a program may have.
+const SUBS_MAX: usize = 50_000;
 
 /// What the flow of a program knows.
 #[derive(Clone, Debug)]
@@ -77,7 +71,7 @@ pub struct Flow {
     /// Compiled rows.
     pub code: Arena,
     reader: Reader,
-    kept: HashMap<(u32, u64), Kept, Quick>,
+    kept: kept::Rows,
     jumps: HashMap<(u32, u64), Place, Quick>,
     subs: HashMap<Key, Spot>,
     frames: Vec<Frame>,
@@ -111,7 +105,7 @@ impl Flow {
             files,
             code: Arena::default(),
             reader: Reader::default(),
-            kept: HashMap::default(),
+            kept: kept::Rows::default(),
             jumps: HashMap::default(),
             subs: HashMap::new(),
             frames: Vec::new(),
@@ -147,18 +141,16 @@ impl Flow {
             return self.read();
         }
         let key = (self.files.at, self.here.key());
-        if let Some(kept) = self.kept.get(&key) {
-            self.files.lines().place = kept.next;
-            return Next::Row(kept.row);
+        if let Some((row, next)) = self.kept.get(key) {
+            self.files.lines().place = next;
+            return Next::Row(*row);
         }
         let mark = self.code.kept_mark();
         self.code.truncate(mark);
         let next = self.read();
         if let Next::Row(row) = &next
-            && self.code.size() < KEPT_MAX
+            && self.kept.keep(key, row, self.files.lines().place, &self.code)
         {
-            let kept = Kept { row: *row, next: self.files.lines().place };
-            self.kept.insert(key, kept);
             self.code.keep();
         }
         next

@@ -77,8 +77,17 @@ impl Flow {
             return Err(misfit(word.place, "a subroutine inside of another", "end the first one with endsub"));
         }
         let spot = self.files.spot();
-        self.subs.entry(key).or_insert(spot);
+        self.add_sub(key, spot, word.place)?;
         self.skip_to(key, &[Keyword::EndSub], word.place).map(|_| ())
+    }
+
+    pub(super) fn add_sub(&mut self, key: Key, spot: Spot, place: (u32, u32)) -> Result<(), Fault> {
+        if self.subs.len() >= super::SUBS_MAX && !self.subs.contains_key(&key) {
+            let label = "a program has at most 50000 subroutines";
+            return Err(Fault::at(Code::ProgramTooLarge, place.0, place.1, label, "call one of them with arguments in place of many"));
+        }
+        self.subs.entry(key).or_insert(spot);
+        Ok(())
     }
 
     fn call(&mut self, key: Key, word: &OWord, state: &mut State, stack: &mut Stack) -> Result<(), Fault> {

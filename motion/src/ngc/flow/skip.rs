@@ -3,8 +3,13 @@
 use super::{Flow, Key, misfit};
 use crate::ngc::code::Row;
 use crate::ngc::fault::Fault;
-use crate::ngc::lines::Place;
+use crate::ngc::lines::{Place, trimmed};
 use crate::ngc::oword::{Keyword, Label};
+
+/// Ways over rows that are remembered.
+const JUMPS_MAX: usize = 32_768;
+/// Errors in rows that are not executed, of one way over them.
+const FOUND_MAX: usize = 10_000;
 
 impl Flow {
     /// Goes to the next row with `key` and one of `keywords`, and reads it. `from` is the O word that asks.
@@ -17,6 +22,7 @@ impl Flow {
             }
         }
         loop {
+            let mark = self.code.mark();
             let Some((row, place)) = self.next_oword()? else {
                 let help = "write the O word that ends it, with the same number or name";
                 return Err(misfit(from, "nothing ends this block", help));
@@ -34,11 +40,12 @@ impl Flow {
                 self.here = place;
                 return Ok(row);
             }
+            self.code.truncate(mark);
         }
     }
 
     fn remember(&mut self, origin: (u32, u64), place: Place) {
-        if self.keeps() && self.jumps.len() < 100_000 {
+        if self.keeps() && self.jumps.len() < JUMPS_MAX {
             self.jumps.insert(origin, place);
         }
     }
@@ -60,7 +67,7 @@ impl Flow {
             match self.reader.read(inside, piece.range.start, piece.line, &mut self.code) {
                 Ok(row) if wanted => return Ok(Some((row, place))),
                 Ok(_) => self.code.truncate(mark),
-                Err(fault) if self.thorough => self.found.push((piece.line, fault)),
+                Err(fault) if self.thorough && self.found.len() < FOUND_MAX => self.found.push((piece.line, fault)),
                 Err(_) => {}
             }
         }
@@ -71,6 +78,7 @@ impl Flow {
         let back = self.files.spot();
         let thorough = std::mem::replace(&mut self.thorough, false);
         self.files.lines().place = Place::default();
+        self.pass_opening()?;
         loop {
             let mark = self.code.mark();
             let Some((row, _)) = self.next_oword()? else { break };
@@ -79,12 +87,22 @@ impl Flow {
                 && let Some(key) = self.key(word.label)
             {
                 let spot = self.files.spot();
-                self.subs.entry(key).or_insert(spot);
+                self.add_sub(key, spot, word.place)?;
             }
             self.code.truncate(mark);
         }
         self.thorough = thorough;
         self.files.go(back);
+        Ok(())
+    }
+
+    /// Goes past the `%` that opens a text.
+    fn pass_opening(&mut self) -> Result<(), Fault> {
+        if let Some(piece) = self.files.next_piece()?
+            && trimmed(self.files.bytes(piece.range)) != b"%"
+        {
+            self.files.lines().place = Place::default();
+        }
         Ok(())
     }
 

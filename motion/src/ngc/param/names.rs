@@ -30,7 +30,12 @@ pub enum Kind {
 pub struct Names {
     map: HashMap<String, Name>,
     texts: Vec<String>,
+    bytes: usize,
 }
+
+/// Names that a program may have, and bytes of all of them.
+const NAMES_MAX: usize = 50_000;
+const BYTES_MAX: usize = 4 << 20;
 
 impl Names {
     /// The name for `text`.
@@ -47,8 +52,14 @@ impl Names {
         };
         let name = Name { id: self.texts.len() as u32, kind };
         self.texts.push(text.to_owned());
+        self.bytes += text.len();
         self.map.insert(text.to_owned(), name);
         name
+    }
+
+    /// True if there is room for no other name than those that were read.
+    pub fn is_full(&self) -> bool {
+        self.texts.len() >= NAMES_MAX || self.bytes >= BYTES_MAX
     }
 
     /// A name that shows the state of the interpreter.

@@ -19,8 +19,7 @@ pub fn read(cursor: &mut Cursor, arena: &mut Arena) -> Result<OWord, Fault> {
         return Err(Fault::at(Code::BadFlow, place.0, place.1, "a computed label", help));
     }
     let start = arena.args.len();
-    let args = read_args(cursor, arena, keyword, place)?;
-    arena.args.extend(args);
+    read_args(cursor, arena, keyword, place)?;
     Ok(OWord { label, keyword, args: Slice { start: start as u32, end: arena.args.len() as u32 }, place })
 }
 
@@ -60,12 +59,14 @@ fn keyword(cursor: &mut Cursor, from: usize, label: Label) -> Result<Keyword, Fa
     Ok(keyword)
 }
 
-fn read_args(cursor: &mut Cursor, arena: &mut Arena, keyword: Keyword, place: (u32, u32)) -> Result<Vec<Value>, Fault> {
-    let mut args = Vec::new();
-    while cursor.peek() == Some(b'[') && args.len() < *keyword.arguments().end() {
-        args.push(compile::bracketed(cursor, arena)?);
+fn read_args(cursor: &mut Cursor, arena: &mut Arena, keyword: Keyword, place: (u32, u32)) -> Result<(), Fault> {
+    let mut count = 0;
+    while cursor.peek() == Some(b'[') && count < *keyword.arguments().end() {
+        let value = compile::bracketed(cursor, arena)?;
+        arena.args.push(value);
+        count += 1;
     }
-    if args.len() < *keyword.arguments().start() {
+    if count < *keyword.arguments().start() {
         let label = format!("{} needs an expression", keyword.text());
         return Err(Fault::at(Code::BadFlow, place.0, place.1, label, "write it in brackets, such as o1 if [#1 GT 0]"));
     }
@@ -74,5 +75,5 @@ fn read_args(cursor: &mut Cursor, arena: &mut Arena, keyword: Keyword, place: (u
         let help = "an O word stands alone on its row; move the other words to the next one";
         return Err(Fault::at(Code::BadFlow, start, end, "words behind an O word", help));
     }
-    Ok(args)
+    Ok(())
 }

@@ -11,6 +11,7 @@ pub use file::{ReadAt, Stamp};
 pub use window::{Trouble, View, Window};
 
 use file::Stream;
+use std::borrow::Cow;
 use std::io;
 use std::path::Path;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -149,6 +150,10 @@ impl Text {
         }
         let mut marks = self.marks.lock().unwrap_or_else(PoisonError::into_inner);
         if marks.len() + 1 == (lines / MARK_LINES) as usize {
+            if marks.is_empty() {
+                // Lines are of much the same length: all the room at once, up to a thousandth of a file of ten bytes a line.
+                marks.reserve((self.len() / next.max(1)).min(self.len() / 10_240) + 8);
+            }
             marks.push(next as u32);
         }
     }
@@ -171,9 +176,15 @@ impl Text {
 
 /// UTF-8, or else Latin-1; without a byte order mark.
 pub fn decoded(bytes: &[u8]) -> String {
+    let text = line(bytes);
+    text.strip_prefix('\u{feff}').map_or_else(|| text.clone().into_owned(), str::to_owned)
+}
+
+/// A piece of a row: UTF-8, or else Latin-1.
+pub fn line(bytes: &[u8]) -> Cow<'_, str> {
     match std::str::from_utf8(bytes) {
-        Ok(text) => text.strip_prefix('\u{feff}').unwrap_or(text).to_owned(),
-        Err(_) => bytes.iter().map(|&b| char::from(b)).collect(),
+        Ok(text) => Cow::Borrowed(text),
+        Err(_) => Cow::Owned(bytes.iter().map(|&b| char::from(b)).collect()),
     }
 }
 
