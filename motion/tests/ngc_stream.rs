@@ -230,6 +230,7 @@ fn a_program_starts_at_any_line() {
         }
         assert_eq!(text.lines(), Ok(50_001));
         assert_eq!(text.start_of(3), Ok(Some(11)));
+        assert_eq!(text.to_whole().as_deref(), Ok(lines(50_000).as_str()));
     }
 }
 

@@ -140,11 +140,14 @@ impl Code {
         self.texts.truncate(texts);
     }
 
-    /// Adds the text of a comment: UTF-8, or else Latin-1.
-    pub fn add_text(&mut self, bytes: &[u8]) -> Slice {
-        let start = self.texts.len() as u32;
-        self.texts.push_str(&super::text::line(bytes));
-        Slice { start, end: self.texts.len() as u32 }
+    /// Adds the texts of the comments from `first` on; they stand in the row `bytes`, which is at byte `start` of its file.
+    pub fn add_texts(&mut self, first: usize, bytes: &[u8], start: usize) {
+        for comment in self.comments.get_mut(first..).unwrap_or_default() {
+            let from = self.texts.len() as u32;
+            let (a, b) = (comment.place.0 as usize - start, comment.place.1 as usize - start);
+            self.texts.push_str(&super::text::line(bytes.get(a..b).unwrap_or_default()));
+            comment.text = Slice { start: from, end: self.texts.len() as u32 };
+        }
     }
 
     /// The text of a comment.

@@ -35,7 +35,8 @@ impl Reader {
     fn fill(&mut self, text: &[u8], start: usize, line: u32, arena: &mut Arena) -> Result<Row, Fault> {
         let place = (start as u32, (start + text.len()) as u32);
         let [words, settings, comments] = [arena.words.len(), arena.settings.len(), arena.comments.len()];
-        self.squeezed.fill(text, start, arena)?;
+        self.squeezed.fill(text, start, &mut arena.comments)?;
+        arena.add_texts(comments, text, start);
         let mut cursor = Cursor { bytes: &self.squeezed.bytes, at: &self.squeezed.at, pos: 0 };
         let deleted = cursor.eat(b'/');
         let n = number_word(&mut cursor)?;

@@ -1,6 +1,7 @@
 //! First pass over a row: blanks out, letters to lower case, comments aside.
 
-use crate::ngc::code::{Code as Arena, Comment, CommentKind};
+use crate::ngc::code::{Comment, CommentKind};
+use crate::ngc::expr::Slice;
 use crate::ngc::fault::Fault;
 use takt_base::Code;
 
@@ -14,14 +15,15 @@ pub struct Squeezed {
 }
 
 impl Squeezed {
-    /// Fills the buffers from `bytes` at byte `start` of the file; comments go to `arena`.
-    pub fn fill(&mut self, bytes: &[u8], start: usize, arena: &mut Arena) -> Result<(), Fault> {
+    /// Fills the buffers from `text` at byte `start` of the file; comments go to `comments`, without their texts.
+    pub fn fill(&mut self, text: impl AsRef<[u8]>, start: usize, comments: &mut Vec<Comment>) -> Result<(), Fault> {
+        let bytes = text.as_ref();
         self.bytes.resize(bytes.len(), 0);
         self.at.resize(bytes.len() + 1, 0);
         let (mut i, mut kept) = (0, 0);
         while let Some(&byte) = bytes.get(i) {
             match byte {
-                b'(' => i = comment(bytes, i, start, arena)?,
+                b'(' => i = comment(bytes, i, start, comments)?,
                 // LinuxCNC drops it as well, whatever it says.
                 b';' => break,
                 _ => {
@@ -41,7 +43,7 @@ impl Squeezed {
 }
 
 /// `( text )` at byte `i`: no nesting, ends on its row. Returns its last byte.
-fn comment(bytes: &[u8], i: usize, start: usize, arena: &mut Arena) -> Result<usize, Fault> {
+fn comment(bytes: &[u8], i: usize, start: usize, comments: &mut Vec<Comment>) -> Result<usize, Fault> {
     let inside = &bytes[i + 1..];
     let length = inside.iter().position(|&b| b == b')' || b == b'(').unwrap_or(inside.len());
     match inside.get(length) {
@@ -54,8 +56,7 @@ fn comment(bytes: &[u8], i: usize, start: usize, arena: &mut Arena) -> Result<us
     }
     let (kind, skip) = kind_of(&inside[..length]);
     let from = start + i + 1;
-    let text = arena.add_text(&inside[skip..length]);
-    arena.comments.push(Comment { kind, text, place: ((from + skip) as u32, (from + length) as u32) });
+    comments.push(Comment { kind, text: Slice::default(), place: ((from + skip) as u32, (from + length) as u32) });
     Ok(i + 1 + length)
 }
 

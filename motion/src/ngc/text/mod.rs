@@ -77,6 +77,21 @@ impl Text {
         }
     }
 
+    /// The whole text, read now if it is not held: for those who can't do with rows.
+    ///
+    /// # Errors
+    /// The file can't be read.
+    pub fn to_whole(&self) -> Result<Arc<str>, Trouble> {
+        match &self.kind {
+            Kind::Whole(text) => Ok(text.clone()),
+            Kind::Streamed(stream) => {
+                let mut bytes = vec![0; self.len()];
+                stream.fill(&mut bytes, 0, false)?;
+                Ok(decoded(&bytes).into())
+            }
+        }
+    }
+
     /// Its length in bytes.
     pub fn len(&self) -> usize {
         match &self.kind {
