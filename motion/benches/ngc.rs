@@ -24,13 +24,34 @@ fn main() {
     std::fs::create_dir_all(&folder).expect("a folder for temporary files");
     std::fs::write(folder.join("tool.tbl"), TOOLS).expect("a tool table");
     let start = peer(&folder, &write(&folder, "empty", "M2\n"), 5);
+    let chosen = |name: &str| wanted.is_empty() || wanted.iter().any(|w| name.contains(w.as_str()));
+    if chosen("large") {
+        large(&folder);
+    }
     println!("{:<14} {:>10} {:>9} {:>13} {:>13} {:>13} {:>7}", "program", "rows", "MB", "interpreted/s", "listed/s", "rs274/s", "ratio");
     for (name, rows, program) in programs::ALL {
-        if wanted.is_empty() || wanted.iter().any(|w| name.contains(w.as_str())) {
+        if chosen(name) {
             row(name, &program(rows), &folder, start);
         }
     }
     let _ = std::fs::remove_dir_all(&folder);
+}
+
+/// Ten million lines: the most memory that this process has had while it listed them, and a start in their middle.
+fn large(folder: &Path) {
+    let path = folder.join("large.ngc");
+    let rows = programs::write_large(&path, 10_000_000).expect("room for a large program");
+    let seconds = best(1, || list(&path));
+    let bytes = std::fs::metadata(&path).map_or(0, |about| about.len());
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let peak = status.lines().find_map(|l| l.strip_prefix("VmHWM:")).unwrap_or("").trim();
+    println!("large: {rows} lines, {:.0} MB, listed in {seconds:.2} s; peak resident {peak}", bytes as f64 / 1e6);
+    let mut interpreter = open(&path);
+    for what in ["first", "second"] {
+        let seconds = best(1, || interpreter.seek(rows as u32 / 2).expect("a line of the program"));
+        println!("large: {what} start at line {}: {:.1} ms", rows / 2, seconds * 1e3);
+    }
+    let _ = std::fs::remove_file(path);
 }
 
 fn row(name: &str, program: &Program, folder: &Path, start: Option<f64>) {

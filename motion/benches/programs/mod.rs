@@ -1,7 +1,9 @@
 //! The programs that are measured. All have the same text on every machine.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
-use std::fmt::Write;
+use std::fmt::Write as _;
+use std::io::Write as _;
+use std::path::Path;
 
 /// A part program and how many rows of it are executed.
 pub struct Program {
@@ -29,6 +31,18 @@ fn lines(rows: usize) -> Program {
         let _ = writeln!(text, "G1 X{:.4} Y{:.4}", 50.0 * cosine(a), 50.0 * cosine(a + FRAC_PI_2));
     }
     Program { text: text + "M2\n", rows }
+}
+
+/// A program that is written without being held: its lines.
+pub fn write_large(path: &Path, rows: usize) -> std::io::Result<usize> {
+    let mut file = std::io::BufWriter::new(std::fs::File::create(path)?);
+    file.write_all(HEAD.as_bytes())?;
+    for i in 0..rows - 2 {
+        writeln!(file, "G1 X{}.{:04} Y{}.{:04}", i % 100, i % 9973, i % 77, i % 9967)?;
+    }
+    file.write_all(b"M2\n")?;
+    file.flush()?;
+    Ok(rows)
 }
 
 /// Arcs with their centres, forth and back with changing radii, some of them helices.
