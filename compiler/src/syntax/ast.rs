@@ -412,10 +412,10 @@ pub enum StmtKind {
         otherwise: Option<Vec<Stmt>>,
     },
     For {
-        variable: Expr,
-        from: Expr,
-        to: Expr,
-        by: Option<Expr>,
+        variable: Box<Expr>,
+        from: Box<Expr>,
+        to: Box<Expr>,
+        by: Option<Box<Expr>>,
         body: Vec<Stmt>,
     },
     While {
