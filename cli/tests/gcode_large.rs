@@ -57,7 +57,11 @@ fn messages_of_a_large_program_show_their_lines() {
     assert!(ran.stderr.contains("p.ngc:40002:14\n40002 | (grün) G0 X1 X2\n"), "{}", ran.stderr);
     assert!(ran.stderr.contains("p.ngc:40003:4\n40003 | G0 Z Y1\n") && ran.stderr.contains("2 errors"), "{}", ran.stderr);
     let ran = takt(&["rs274", "-g", &path]);
-    assert!(ran.status == 1 && ran.stderr.contains("line 40002, column 14") && ran.stderr.contains("\n(grün) G0 X1 X2\n"), "{}", ran.stderr);
+    assert!(
+        ran.status == 1 && ran.stderr.contains("line 40002, column 14") && ran.stderr.contains("\n(grün) G0 X1 X2\n"),
+        "{}",
+        ran.stderr
+    );
     fs::remove_file(path).unwrap();
 }
 

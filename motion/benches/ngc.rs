@@ -28,7 +28,10 @@ fn main() {
     if chosen("large") {
         large(&folder);
     }
-    println!("{:<14} {:>10} {:>9} {:>13} {:>13} {:>13} {:>7}", "program", "rows", "MB", "interpreted/s", "listed/s", "rs274/s", "ratio");
+    println!(
+        "{:<14} {:>10} {:>9} {:>13} {:>13} {:>13} {:>7}",
+        "program", "rows", "MB", "interpreted/s", "listed/s", "rs274/s", "ratio"
+    );
     for (name, rows, program) in programs::ALL {
         if chosen(name) {
             row(name, &program(rows), &folder, start);
@@ -62,10 +65,7 @@ fn row(name: &str, program: &Program, folder: &Path, start: Option<f64>) {
     let theirs = peer(folder, &path, 1).zip(start).map(|(all, start)| rate((all - start).max(1e-9)));
     let (their_rate, ratio) = theirs.map_or(("-".into(), "-".into()), |t| (format!("{t:.0}"), format!("{:.1}", listed / t)));
     let megabytes = program.text.len() as f64 / 1e6;
-    println!(
-        "{:<14} {:>10} {megabytes:>9.1} {interpreted:>13.0} {listed:>13.0} {their_rate:>13} {ratio:>7}",
-        name, program.rows
-    );
+    println!("{:<14} {:>10} {megabytes:>9.1} {interpreted:>13.0} {listed:>13.0} {their_rate:>13} {ratio:>7}", name, program.rows);
 }
 
 fn write(folder: &Path, name: &str, text: &str) -> PathBuf {
@@ -89,7 +89,8 @@ fn processor_time() -> f64 {
     let read = |name: &str| std::fs::read_to_string(format!("/proc/self/{name}")).unwrap_or_default();
     let own: Option<f64> = read("schedstat").split(' ').next().and_then(|ns| ns.parse().ok());
     // Fields 16 and 17 of the line, counted behind the name in parentheses: hundredths of a second.
-    let children: Vec<f64> = read("stat").rsplit(") ").next().unwrap_or("").split(' ').skip(13).take(2).flat_map(str::parse).collect();
+    let children: Vec<f64> =
+        read("stat").rsplit(") ").next().unwrap_or("").split(' ').skip(13).take(2).flat_map(str::parse).collect();
     own.expect("Linux tells the time of a process") / 1e9 + children.iter().sum::<f64>() / 100.0
 }
 

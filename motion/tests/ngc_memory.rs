@@ -77,8 +77,14 @@ fn rows_do_not_allocate() {
         ("compensation", rows(8000, |i| ["G1 X50 Y0", "G1 Y50", "G3 X0 I-25", "G1 Y0"][i % 4].to_owned()))
             .map_text(|t| t.replace("F100\n", "F100\nG0 X-9 Y-9\nG41 D1 G1 X0 Y0\n")),
         ("modes", rows(8000, |i| ["G91 M8 G1 X1", "G90 M9 G1 Y1", "G20 G4 P1 G1 X1", "G21 S100 F200 G1 X2"][i % 4].to_owned())),
-        ("calls", "o100 sub\nG1 X#1 Y[#2 + #<_value>]\no100 endsub [#1 + 1]\nF100\n".to_owned() + &"o100 call [3] [4]\n".repeat(8000)),
-        ("loops", format!("{SUB}F100 #<n> = 0\no1 while [#<n> LT 8000]\no<a> call [#<n>] [#<n> / 2]\n#<n> = [#<n> + 1]\no1 endwhile\n")),
+        (
+            "calls",
+            "o100 sub\nG1 X#1 Y[#2 + #<_value>]\no100 endsub [#1 + 1]\nF100\n".to_owned() + &"o100 call [3] [4]\n".repeat(8000),
+        ),
+        (
+            "loops",
+            format!("{SUB}F100 #<n> = 0\no1 while [#<n> LT 8000]\no<a> call [#<n>] [#<n> / 2]\n#<n> = [#<n> + 1]\no1 endwhile\n"),
+        ),
         ("repeats", "F100\no1 repeat [90]\no2 repeat [90]\nG1 X[#5420 + 1]\no2 endrepeat\no1 endrepeat\n".to_owned()),
         ("M98", "F100\nM98 P100 L9000\nM2\nO100\nG91 G1 X1\nM99\n".to_owned()),
     ];

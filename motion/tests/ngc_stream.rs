@@ -101,7 +101,10 @@ fn a_streamed_file_gives_the_same_commands() {
         let (want, error) = run(text.as_str().into());
         assert_eq!(error, None);
         for part in [usize::MAX, 4096, 997] {
-            assert!(run(streamed(Fake { part, ..Fake::new(text.as_str()) })) == (want.clone(), None), "seed {seed}, parts of {part}");
+            assert!(
+                run(streamed(Fake { part, ..Fake::new(text.as_str()) })) == (want.clone(), None),
+                "seed {seed}, parts of {part}"
+            );
         }
     }
 }
@@ -136,7 +139,11 @@ fn messages_show_the_line() {
         sources.add_excerpt(id, text.excerpt(diag.span.start).unwrap());
     }
     let shown: Vec<_> = diags.iter().map(|d| takt_base::diag::render(d, &sources)).collect();
-    assert!(shown[0].contains("--> big.ngc:20001:14\n20001 | (grün) G0 X1 X2\n      |              ^^ a second X word"), "{}", shown[0]);
+    assert!(
+        shown[0].contains("--> big.ngc:20001:14\n20001 | (grün) G0 X1 X2\n      |              ^^ a second X word"),
+        "{}",
+        shown[0]
+    );
     assert!(shown[1].contains("--> big.ngc:20002:10\n20002 | G0 Y1 Y2 Z\n"), "{}", shown[1]);
 }
 

@@ -126,7 +126,7 @@ impl Interpreter {
             return Ok(());
         }
         self.ended = true;
-        let at = self.flow.files.len();
+        let at = self.flow.files.end();
         let span = Span::new(source, at.saturating_sub(1), at);
         let diag = Diag::new(Code::NoSuchLine, span, "the last line").message(format!("the part program has no line {line}"));
         Err(Box::new(diag.help("choose a line of the program")))
@@ -295,7 +295,7 @@ impl Interpreter {
     fn end_of_text(&mut self) {
         if self.flow.depth() > 0 || self.flow.block_is_open() {
             self.ended = true;
-            let at = self.flow.files.len();
+            let at = self.flow.files.end();
             let span = Span::new(self.flow.files.source(), at.saturating_sub(1), at);
             let help = "end it with endsub, endif, endwhile, endrepeat or M99";
             self.diags.push(Diag::new(Code::BadFlow, span, "the file ends inside of a subroutine or block").help(help));
@@ -303,7 +303,7 @@ impl Interpreter {
         }
         if self.state.options.drop_in {
             self.ended = true;
-            let at = self.flow.files.len();
+            let at = self.flow.files.end();
             let span = Span::new(self.flow.files.source(), at.saturating_sub(1), at);
             let diag = Diag::new(Code::MissingWord, span, "the file ends without M2, M30 or `%`");
             self.diags.push(diag.help("write M2 in the last row"));

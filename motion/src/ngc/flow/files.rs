@@ -82,8 +82,8 @@ impl Files {
         self.window.bytes(&file.text, self.at, range)
     }
 
-    /// Length of the text at hand in bytes.
-    pub fn len(&self) -> usize {
+    /// Byte at which the text at hand ends.
+    pub fn end(&self) -> usize {
         self.all[self.at as usize].text.len()
     }
 

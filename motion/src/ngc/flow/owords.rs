@@ -84,7 +84,13 @@ impl Flow {
     pub(super) fn add_sub(&mut self, key: Key, spot: Spot, place: (u32, u32)) -> Result<(), Fault> {
         if self.subs.len() >= super::SUBS_MAX && !self.subs.contains_key(&key) {
             let label = "a program has at most 50000 subroutines";
-            return Err(Fault::at(Code::ProgramTooLarge, place.0, place.1, label, "call one of them with arguments in place of many"));
+            return Err(Fault::at(
+                Code::ProgramTooLarge,
+                place.0,
+                place.1,
+                label,
+                "call one of them with arguments in place of many",
+            ));
         }
         self.subs.entry(key).or_insert(spot);
         Ok(())

@@ -60,7 +60,10 @@ impl Text {
     pub fn streamed(file: impl ReadAt + 'static) -> io::Result<Self> {
         let stream = Stream::new(Box::new(file))?;
         if stream.len() > BYTES_MAX {
-            return Err(io::Error::new(io::ErrorKind::FileTooLarge, "it has more than 4 GiB; split it into programs that call each other"));
+            return Err(io::Error::new(
+                io::ErrorKind::FileTooLarge,
+                "it has more than 4 GiB; split it into programs that call each other",
+            ));
         }
         Ok(Text::new(Kind::Streamed(Arc::new(stream))))
     }
