@@ -224,6 +224,29 @@ fn first_feed(interpreter: &mut Interpreter) -> (u32, f64) {
     moves.next().unwrap()
 }
 
+/// Rows without a command are no endless program, however many follow each other.
+#[test]
+fn a_million_rows_that_do_nothing() {
+    let text = "N1\n; nothing\n".repeat(600_000) + "G0 X1\nM2\n";
+    assert_eq!(run(streamed(Fake::new(text))).1, None);
+    assert_eq!(run("N1\nM99\n".into()).1.map(|d| d.code), Some(Code::EndlessProgram));
+}
+
+/// Places have 32 bits.
+#[test]
+fn a_file_above_4_gib_is_refused() {
+    struct Huge;
+    impl ReadAt for Huge {
+        fn read_at(&self, _: &mut [u8], _: u64) -> io::Result<usize> {
+            Ok(0)
+        }
+        fn stamp(&self) -> io::Result<Stamp> {
+            Ok(Stamp { len: 1 << 32, modified: None })
+        }
+    }
+    assert_eq!(Text::streamed(Huge).map_err(|e| e.kind()).unwrap_err(), io::ErrorKind::FileTooLarge);
+}
+
 /// R1-103 (block search): from any line, forth and back.
 #[test]
 fn a_program_starts_at_any_line() {

@@ -169,7 +169,10 @@ impl Interpreter {
         } else {
             self.block(row);
         }
-        self.count_silence(row, before);
+        // Rows that run once end with the text, however many do nothing.
+        if self.flow.may_repeat() {
+            self.count_silence(row, before);
+        }
     }
 
     /// An endless loop that does nothing must not hang whoever waits for a command.

@@ -8,19 +8,32 @@ const ROOM: usize = 8 * 330 + 100;
 pub struct Back {
     text: [u8; ROOM],
     start: usize,
+    /// What stood last at each place: of the six axes few change from move to move.
+    last: [Known; 6],
 }
+
+/// A number and its text, which ends with the array.
+#[derive(Clone, Copy, Debug)]
+struct Known {
+    bits: u64,
+    text: [u8; KNOWN_ROOM],
+    length: u8,
+}
+
+/// Bytes of a number up to 999999.9999; larger ones are made anew.
+const KNOWN_ROOM: usize = 12;
 
 impl Default for Back {
     fn default() -> Self {
-        Back { text: [0; ROOM], start: ROOM }
+        let zero = Known { bits: 0, text: *b"      0.0000", length: 6 };
+        Back { text: [0; ROOM], start: ROOM, last: [zero; 6] }
     }
 }
 
 impl Back {
-    /// Starts a row that ends with `text`.
-    pub fn end(&mut self, text: &str) {
+    /// Starts a row.
+    pub fn clear(&mut self) {
         self.start = ROOM;
-        self.text(text);
     }
 
     /// What is written so far.
@@ -35,12 +48,10 @@ impl Back {
         self.start = start;
     }
 
-    /// Puts bytes of ASCII in front, if there is room.
-    pub fn front(&mut self, bytes: &[u8]) {
-        if let Some(start) = self.start.checked_sub(bytes.len()) {
-            self.text[start..self.start].copy_from_slice(bytes);
-            self.start = start;
-        }
+    /// Counts one more and puts that in front.
+    pub fn count(&mut self, count: &mut Count) {
+        count.next();
+        self.last_of(count.text, COUNT_ROOM - count.start);
     }
 
     /// Blanks.
@@ -54,7 +65,14 @@ impl Back {
         self.put([byte]);
     }
 
-    fn put<const N: usize>(&mut self, bytes: [u8; N]) {
+    /// Puts the last bytes of an array in front. All of it is copied, since that takes one step; the rest is written over.
+    fn last_of<const N: usize>(&mut self, bytes: [u8; N], length: usize) {
+        self.put(bytes);
+        self.start += N - length.min(N);
+    }
+
+    /// Puts bytes of ASCII in front.
+    pub fn put<const N: usize>(&mut self, bytes: [u8; N]) {
         if let Some(place) = self.text[..self.start].last_chunk_mut() {
             *place = bytes;
             self.start -= N;
@@ -79,6 +97,32 @@ impl Back {
             if i > 0 {
                 self.put(*b", ");
             }
+        }
+    }
+
+    /// The same for the six axes.
+    pub fn axes(&mut self, axes: [f64; 6]) {
+        for (i, axis) in axes.into_iter().enumerate().rev() {
+            let Known { bits, text, length } = self.last[i];
+            if bits == axis.to_bits() {
+                self.last_of(text, usize::from(length));
+            } else {
+                self.note(i, axis);
+            }
+            if i > 0 {
+                self.put(*b", ");
+            }
+        }
+    }
+
+    fn note(&mut self, i: usize, axis: f64) {
+        let end = self.start;
+        self.fixed4(axis);
+        let length = end - self.start;
+        if length <= KNOWN_ROOM
+            && let Some(text) = self.text[..end].last_chunk()
+        {
+            self.last[i] = Known { bits: axis.to_bits(), text: *text, length: length as u8 };
         }
     }
 
@@ -121,8 +165,7 @@ impl Default for Count {
 }
 
 impl Count {
-    /// One more.
-    pub fn next(&mut self) -> &[u8] {
+    fn next(&mut self) {
         for i in (0..COUNT_ROOM).rev() {
             match self.text[i] {
                 b'9' => self.text[i] = b'0',
@@ -137,7 +180,6 @@ impl Count {
                 }
             }
         }
-        &self.text[self.start..]
     }
 }
 
@@ -147,9 +189,11 @@ mod tests {
 
     #[test]
     fn counts() {
-        let mut count = Count::default();
+        let (mut count, mut back) = (Count::default(), Back::default());
         for i in 1..=200_000 {
-            assert_eq!(count.next(), format!("{i:5}").as_bytes());
+            back.clear();
+            back.count(&mut count);
+            assert_eq!(back.bytes(), format!("{i:5}").as_bytes());
         }
     }
 
@@ -164,16 +208,32 @@ mod tests {
                 2 => -((x >> 30) as f64) / 1e6,
                 _ => (x >> 60) as f64 / 16.0 + 0.00005,
             };
-            back.end("");
+            back.clear();
             back.fixed4(value);
             assert_eq!(back.bytes(), format!("{value:.4}").as_bytes(), "{value:?}");
         }
     }
 
     #[test]
+    fn axes_are_remembered_and_print_the_same() {
+        let (mut x, mut back) = (3_u64, Back::default());
+        for _ in 0..20_000 {
+            x = x.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            let axes: [f64; 6] = std::array::from_fn(|i| {
+                [0.0, -0.0, 1.5, -123_456.75, 98_765.5, 1e9, -12_345.6, 1e17][(x >> (8 * i)) as usize % 8]
+            });
+            back.clear();
+            back.put(*b")");
+            back.axes(axes);
+            let want = axes.map(|a| format!("{a:.4}")).join(", ") + ")";
+            assert_eq!(std::str::from_utf8(back.bytes()), Ok(want.as_str()));
+        }
+    }
+
+    #[test]
     fn what_does_not_fit_is_left_out() {
         let mut back = Back::default();
-        back.end("end");
+        back.text("end");
         back.text(&"x".repeat(5000));
         back.digits(7);
         assert!(back.bytes().ends_with(b"xend") && back.bytes().len() < 5000);

@@ -35,10 +35,10 @@ impl Listing {
                 self.row(None, "ON_RESET()", out);
                 self.closed = true;
             }
-            Canon::StraightTraverse(p) => self.quick(step.n, "STRAIGHT_TRAVERSE(", &<[f64; 6]>::from(*p), out),
-            Canon::StraightFeed(p) => self.quick(step.n, "STRAIGHT_FEED(", &<[f64; 6]>::from(*p), out),
-            Canon::Dwell(seconds) => self.quick(step.n, "DWELL(", &[*seconds], out),
-            Canon::SetFeedRate(rate) => self.quick(step.n, "SET_FEED_RATE(", &[*rate], out),
+            Canon::StraightTraverse(p) => self.straight(step.n, b"STRAIGHT_TRAVERSE(", *p, out),
+            Canon::StraightFeed(p) => self.straight(step.n, b"STRAIGHT_FEED(", *p, out),
+            Canon::Dwell(seconds) => self.quick(step.n, b"DWELL(", *seconds, out),
+            Canon::SetFeedRate(rate) => self.quick(step.n, b"SET_FEED_RATE(", *rate, out),
             Canon::ArcFeed(a) => self.arc(step.n, a, out),
             command => {
                 let text = call(command, self.table_unit);
@@ -50,38 +50,46 @@ impl Listing {
     }
 
     /// The calls that programs consist of.
-    #[inline]
-    fn quick(&mut self, n: Option<u32>, name: &str, numbers: &[f64], out: &mut Vec<u8>) {
-        self.back.end(")\n");
-        self.back.numbers(numbers);
-        self.head(n, name, out);
+    fn straight<const N: usize>(&mut self, n: Option<u32>, name: &[u8; N], to: Position, out: &mut Vec<u8>) {
+        self.back.put(*b")\n");
+        self.back.axes(to.into());
+        self.back.put(*name);
+        self.head(n, out);
+    }
+
+    fn quick<const N: usize>(&mut self, n: Option<u32>, name: &[u8; N], number: f64, out: &mut Vec<u8>) {
+        self.back.put(*b")\n");
+        self.back.fixed4(number);
+        self.back.put(*name);
+        self.head(n, out);
     }
 
     fn arc(&mut self, n: Option<u32>, a: &Arc, out: &mut Vec<u8>) {
         let back = &mut self.back;
-        back.end(")\n");
+        back.put(*b")\n");
         back.numbers(&[a.axis_end_point, a.a, a.b, a.c]);
-        back.text(", ");
+        back.put(*b", ");
         back.digits(u64::from(a.rotation.unsigned_abs()));
         back.text(if a.rotation < 0 { ", -" } else { ", " });
         back.numbers(&[a.first_end, a.second_end, a.first_axis, a.second_axis]);
-        self.head(n, "ARC_FEED(", out);
+        back.put(*b"ARC_FEED(");
+        self.head(n, out);
     }
 
-    /// Name, N word and number in front of a row, which is then whole.
-    fn head(&mut self, n: Option<u32>, name: &str, out: &mut Vec<u8>) {
+    /// N word and number in front of a row, which is then whole.
+    fn head(&mut self, n: Option<u32>, out: &mut Vec<u8>) {
         let back = &mut self.back;
-        back.text(name);
         match n {
-            None => back.text(" N..... "),
+            None => back.put(*b" N..... "),
             Some(n) => {
                 back.padding(n.checked_ilog10().map_or(5, |log| 5_u32.saturating_sub(log)) as usize);
                 back.digits(u64::from(n));
-                back.text(" N");
+                back.put(*b" N");
             }
         }
-        back.front(self.count.next());
+        back.count(&mut self.count);
         out.extend_from_slice(back.bytes());
+        back.clear();
     }
 
     /// The rows behind the last step.
@@ -101,8 +109,7 @@ impl Listing {
     }
 
     fn row(&mut self, n: Option<u32>, text: &str, out: &mut Vec<u8>) {
-        self.back.end("");
-        self.head(n, "", out);
+        self.head(n, out);
         out.extend_from_slice(text.as_bytes());
         out.push(b'\n');
     }

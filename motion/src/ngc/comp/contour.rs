@@ -10,9 +10,9 @@ use crate::ngc::state::State;
 use crate::ngc::{limits, motion};
 use takt_base::{Code, Diag, Span};
 
-/// Corners below this are no corners, in radians: ours, and LinuxCNC's.
-const SMOOTH: f64 = 0.01;
-const SMOOTH_DROP_IN: f64 = 0.05;
+/// Corners below this are no corners: sines of 0.01 radians, which is ours, and of 0.05, which is LinuxCNC's.
+const SMOOTH: f64 = 0.009_999_833_334_166_664;
+const SMOOTH_DROP_IN: f64 = 0.049_979_169_270_678_33;
 
 /// A move that waits. Lengths in length units, in the plane.
 #[derive(Clone, Debug)]
@@ -78,14 +78,15 @@ pub fn follow(run: &mut Run, command: Canon, end: Position) -> Done {
     let next = |curve: Curve, direction| Pending { curve, rapid, direction, end, turns, at, block, line, n };
     let side = run.state.modal.side.map_or(1.0, sign);
     let radius = run.state.comp.radius(run.state.unit()) * side;
-    let direction = curve.direction_at_end();
+    let starts = curve.direction_at_start();
+    let direction = if matches!(curve, Curve::Line { .. }) { starts } else { curve.direction_at_end() };
     if std::mem::take(&mut run.state.comp.first) {
         let set_aside = corner::entry(&curve, radius).ok_or_else(|| short_entry(at))?;
         run.state.comp.pending = Some(next(set_aside, direction));
         return Ok(());
     }
-    let set_aside = corner::offset(&curve, radius).ok_or_else(|| small_arc(at, radius))?;
-    join(run, next(set_aside, direction), curve.direction_at_start(), radius)
+    let set_aside = corner::offset(&curve, radius, [starts, direction]).ok_or_else(|| small_arc(at, radius))?;
+    join(run, next(set_aside, direction), starts, radius)
 }
 
 /// Joins `next` to the move that waits, which goes out; then `next` waits.
@@ -94,14 +95,15 @@ fn join(run: &mut Run, mut next: Pending, starts: Point, radius: f64) -> Done {
         run.state.comp.pending = Some(next);
         return Ok(());
     };
-    let turn = corner::angle(before.direction, starts);
+    // Sine and cosine of the turn, which need no angle.
+    let (sine, cosine) = (corner::cross(before.direction, starts), corner::dot(before.direction, starts));
     let smooth = if run.state.options.drop_in { SMOOTH_DROP_IN } else { SMOOTH };
-    let inside = turn * radius.signum();
+    let inside = sine * radius.signum();
     // Where the contour turns back, arcs may still meet inside; lines never do.
-    let reversal = turn.abs() > std::f64::consts::PI - SMOOTH;
+    let reversal = cosine < 0.0 && sine.abs() < SMOOTH;
     let meets = reversal
         && corner::intersection(&before.straightened(), &next.curve).is_some_and(|p| before.reaches(p) && next.curve.reaches(p));
-    if radius == 0.0 || turn.abs() <= smooth {
+    if radius == 0.0 || (cosine > 0.0 && sine.abs() <= smooth) {
         next.curve.start_at(before.curve.end());
     } else if if reversal { meets } else { inside > 0.0 } {
         let at = next.at;

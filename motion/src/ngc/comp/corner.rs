@@ -81,10 +81,10 @@ impl Curve {
     }
 }
 
-/// The curve beside `curve` at `radius`; `None` if an arc would vanish.
-pub fn offset(curve: &Curve, radius: f64) -> Option<Curve> {
+/// The curve beside `curve` at `radius`, whose directions at start and end are known; `None` if an arc would vanish.
+pub fn offset(curve: &Curve, radius: f64, [starts, ends]: [Point; 2]) -> Option<Curve> {
     let beside = |p: Point, direction: Point| add(p, scale(left(direction), radius));
-    let (start, end) = (beside(curve.start(), curve.direction_at_start()), beside(curve.end(), curve.direction_at_end()));
+    let (start, end) = (beside(curve.start(), starts), beside(curve.end(), ends));
     match *curve {
         Curve::Line { .. } => Some(Curve::Line { start, end }),
         Curve::Arc { centre, counterclockwise, start: from, .. } => {
@@ -137,7 +137,7 @@ pub fn intersection(a: &Curve, b: &Curve) -> Option<Point> {
 
 fn line_line(a: &Curve, b: &Curve) -> Option<Point> {
     let (d, e) = (a.direction_at_end(), b.direction_at_start());
-    let cross = d[0] * e[1] - d[1] * e[0];
+    let cross = cross(d, e);
     if cross.abs() < 1e-12 {
         return None;
     }
@@ -196,6 +196,10 @@ pub(super) fn minus(a: Point, b: Point) -> Point {
 
 pub(super) fn scale(a: Point, k: f64) -> Point {
     [a[0] * k, a[1] * k]
+}
+
+pub(super) fn cross(a: Point, b: Point) -> f64 {
+    a[0] * b[1] - a[1] * b[0]
 }
 
 pub(super) fn dot(a: Point, b: Point) -> f64 {

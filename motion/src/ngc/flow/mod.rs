@@ -79,6 +79,8 @@ pub struct Flow {
     args: Vec<f64>,
     /// Where the row at hand stands.
     here: Place,
+    /// The program has begun anew (M99).
+    restarted: bool,
     /// Errors of rows that are not executed are looked for too.
     pub thorough: bool,
     /// Errors found in rows that are not executed.
@@ -112,6 +114,7 @@ impl Flow {
             blocks: Vec::new(),
             args: Vec::new(),
             here: Place::default(),
+            restarted: false,
             thorough: false,
             found: Vec::new(),
         }
@@ -125,6 +128,11 @@ impl Flow {
     /// True if a block of the present call is open.
     pub fn block_is_open(&self) -> bool {
         !self.blocks.is_empty()
+    }
+
+    /// True where the program may be in a circle.
+    pub fn may_repeat(&self) -> bool {
+        self.restarted || self.keeps()
     }
 
     /// True where rows may be executed again.
@@ -175,6 +183,7 @@ impl Flow {
     /// Goes back to the start (M99 in the main program).
     pub fn restart(&mut self) {
         self.blocks.clear();
+        self.restarted = true;
         self.files.lines().place = Place::default();
     }
 
