@@ -194,6 +194,15 @@ codes! {
     N0026 SpindleStopped "the code needs a turning spindle";
     N0027 NotInThisMode "the code is not allowed in the mode that is in force";
     N0028 ProgramAborted "the program stops itself";
+    N0050 BadMacro "this macro statement does not fit here";
+    N0051 MissingBlock "no block has this number";
+    N0052 NotOfThisControl "the code belongs to other controls";
+    N0053 BadVariable "this variable can't be used here";
+    N0054 MacroAlarm "the macro program raises an alarm";
+    N0055 BadCorner "this corner can't be chamfered or rounded";
+    N0056 BadContour "this contour can't be cut in passes";
+    N0057 LeftOut "the lenient switch passes over this" Warning;
+    N0058 BadVirtualMove "polar or cylindrical interpolation can't make this move";
 
     // --- C project and image files ---
     C0001 BadProjectFile "the project file can't be used";

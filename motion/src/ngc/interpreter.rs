@@ -8,6 +8,7 @@
 use super::code::Row;
 use super::execute::{self, Out, Then};
 use super::expr::run::Stack;
+use super::fanuc::{self, Went};
 use super::fault::Fault;
 use super::flow::files::Files;
 use super::flow::owords::After;
@@ -39,6 +40,8 @@ pub struct Interpreter {
     ended: bool,
     /// M99 in the main program ends it: errors are looked for, or one run is asked for.
     once: bool,
+    /// Reads a Fanuc-style dialect in place of `flow`.
+    fanuc: Option<Box<fanuc::Machine>>,
 }
 
 /// Rows that a check executes; a longer program is checked no further.
@@ -67,8 +70,14 @@ impl Interpreter {
     /// At the start of `text`, which is file `source` of the diagnostics.
     pub fn new(source: SourceId, text: impl Into<Arc<str>>, options: Options) -> Self {
         let options = Arc::new(options);
-        let flow = Flow::new(Files::new(source, text.into(), options.style));
-        let state = State::new(options.clone());
+        let text = text.into();
+        let mut state = State::new(options.clone());
+        let dialect = options.language.dialect;
+        let fanuc = dialect.is_fanuc().then(|| {
+            fanuc::prepare(&mut state, dialect);
+            Box::new(fanuc::Machine::new(source, text.clone(), &options, &state))
+        });
+        let flow = Flow::new(Files::new(source, text, options.style));
         let queue = prologue(&state, &options).into_iter().map(|command| Step { block: 0, line: 0, n: None, command }).collect();
         Interpreter {
             flow,
@@ -84,6 +93,7 @@ impl Interpreter {
             percent: false,
             ended: false,
             once: options.drop_in,
+            fanuc,
         }
     }
 
@@ -104,6 +114,10 @@ impl Interpreter {
 
     /// Reads one row: its commands go to the queue, what is wrong to `diags`.
     fn advance(&mut self) {
+        if let Some(machine) = self.fanuc.take() {
+            self.fanuc = Some(self.advance_fanuc(machine));
+            return;
+        }
         match self.flow.next_row() {
             Next::Row(row) => self.row(&row),
             Next::Percent(start, end) => self.percent(start, end),
@@ -115,6 +129,32 @@ impl Interpreter {
             }
             Next::End => self.end_of_text(),
         }
+    }
+
+    /// The same in a Fanuc-style dialect.
+    fn advance_fanuc(&mut self, mut machine: Box<fanuc::Machine>) -> Box<fanuc::Machine> {
+        let (mark, before) = (self.queue.len(), self.diags.len());
+        let request = std::mem::take(&mut self.request);
+        let out = Out { queue: &mut self.queue, diags: &mut self.diags, block: self.block, line: self.state.line, n: None };
+        let span = Span::new(machine.source(), 0, 0);
+        let mut io = fanuc::kernel::Io { state: &mut self.state, out, request, span };
+        let went = machine.advance(&mut io);
+        self.block = io.out.block;
+        let line = io.out.line;
+        self.request = io.request;
+        if self.diags.len() > before && self.failed_now(before) {
+            self.queue.truncate(mark);
+            self.state.comp.reset();
+        }
+        match went {
+            Went::On => {}
+            Went::Ended => self.ended = true,
+            Went::Again if !self.once => machine.restart(),
+            Went::Again | Went::Out => self.finish(),
+        }
+        let place = (self.request.span.start, self.request.span.end);
+        self.count_silence(&Row { place, line, ..Row::bare() }, mark);
+        machine
     }
 
     fn fail(&mut self, fault: Fault) {

@@ -10,6 +10,7 @@ pub mod comp;
 pub mod cycle;
 pub mod execute;
 pub mod expr;
+pub mod fanuc;
 pub mod fault;
 pub mod flow;
 pub mod host;
@@ -26,8 +27,10 @@ pub mod reader;
 pub mod request;
 pub mod state;
 pub mod tool;
+pub mod turning;
 pub mod word;
 
+pub use fanuc::{Dialect, Language, Settings};
 pub use host::{Host, HostRef};
 pub use interpreter::{Interpreter, check};
 pub use lines::Style;

@@ -1,6 +1,6 @@
 //! Motion blocks: where they end and what they emit (R1-48, R1-57, R1-58).
 
-mod arc_words;
+pub mod arc_words;
 mod probe;
 mod spindle;
 mod spline;
