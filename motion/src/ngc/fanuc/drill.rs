@@ -39,15 +39,13 @@ pub struct Drill {
     pub aside: Option<[f64; 2]>,
     /// Drilling axis: index, in the order of a position.
     pub axis: usize,
-    /// R and the bottom as given, for the next block in G91.
-    pub given: [f64; 2],
 }
 
 impl Drill {
     /// A cycle without words.
     pub(super) const fn bare(code: u16) -> Self {
         let zero = 0.0;
-        Drill { code, r: zero, bottom: zero, initial: zero, dwell: zero, q: zero, aside: None, axis: 2, given: [zero; 2] }
+        Drill { code, r: zero, bottom: zero, initial: zero, dwell: zero, q: zero, aside: None, axis: 2 }
     }
 }
 
@@ -133,18 +131,17 @@ impl Machine {
                 Box::new(missing(at, &letter.to_string()).help("the first block of a cycle names R and the depth: G81 X1 Y2 Z-5 R2"))
             })
         };
-        let given = [need(r, old.map(|d| d.given[0]), 'R')?, need(bottom, old.map(|d| d.given[1]), AXES[axis])?];
-        let (r, bottom) = match self.modes.incremental {
-            true => (initial + given[0], initial + given[0] + given[1]),
-            false => (given[0], given[1]),
-        };
+        // In G91 R counts from the initial level and the depth from R; levels that are not named stay where they are.
+        let incremental = self.modes.incremental;
+        let r = need(r.map(|r| if incremental { initial + r } else { r }), old.map(|d| d.r), 'R')?;
+        let bottom = need(bottom.map(|z| if incremental { r + z } else { z }), old.map(|d| d.bottom), AXES[axis])?;
         let aside = match (length(b'I'), length(b'J')) {
             (None, None) => old.and_then(|d| d.aside),
             (i, j) => Some([i.unwrap_or(0.0), j.unwrap_or(0.0)]),
         };
         let dwell = b.take(b'P').map(|p| p.value / 1000.0).or(old.map(|d| d.dwell)).unwrap_or(0.0);
         let q = length(b'Q').map(f64::abs).or(old.map(|d| d.q)).unwrap_or(0.0);
-        let drill = Drill { code: number, r, bottom, initial, dwell, q, aside, axis, given };
+        let drill = Drill { code: number, r, bottom, initial, dwell, q, aside, axis };
         self.check_drill(&drill, at)?;
         Ok(drill)
     }

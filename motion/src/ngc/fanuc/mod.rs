@@ -301,6 +301,10 @@ impl Machine {
     /// The end of M2 and M30.
     fn finish(&mut self, end: ProgramEnd, io: &mut Io, at: Span) -> Went {
         self.close(io);
+        if self.modes.turn() {
+            // Turning goes back to its own plane, not to that of the kernel.
+            io.state.modal.plane = Plane::Xy;
+        }
         io.obey(&[super::word::Action::Stop(super::word::Stop::End(end))], &[], at);
         Went::Ended
     }

@@ -28,6 +28,7 @@ impl Machine {
     }
 
     /// Executes the blocks of a contour; the program then goes on behind the cycle.
+    /// A contour that is read and stands directly behind its cycle is not executed once more: the program goes on behind its last block.
     pub(super) fn run_profile(&mut self, (first, last): Bounds, at: Span, io: &mut Io) -> Done {
         if self.in_profile {
             let diag = Diag::new(Code::BadContour, at, "a cycle inside of a contour");
@@ -35,13 +36,31 @@ impl Machine {
         }
         let source = self.flow.source();
         let saved = self.flow.save();
+        let follows = self.recording.is_some() && self.next_number() == Some(first);
+        self.flow.restore(saved.clone());
         self.flow.goto(first, (at.start, at.end)).map_err(|fault| Box::new(fault.diag(source)))?;
         self.in_profile = true;
         let done = self.profile_rows(last, at, io);
         self.in_profile = false;
+        let behind = self.flow.spot();
         self.flow.restore(saved);
-        (io.span, io.out.line) = (at, io.out.line);
+        if follows && done.is_ok() {
+            self.flow.go(behind);
+        }
+        io.span = at;
         done
+    }
+
+    /// N of the next row that is more than a comment.
+    fn next_number(&mut self) -> Option<u32> {
+        for _ in 0..ROWS_MAX {
+            match self.flow.next_row() {
+                Next::Row(row) if row.is_empty() && row.n.is_none() => {}
+                Next::Row(row) => return row.n,
+                _ => return None,
+            }
+        }
+        None
     }
 
     fn profile_rows(&mut self, last: u32, at: Span, io: &mut Io) -> Done {

@@ -42,6 +42,23 @@ pub struct Language {
     pub fanuc: Arc<Settings>,
 }
 
+impl Language {
+    /// From the words of the command line or of a project file.
+    ///
+    /// # Errors
+    /// What a word should have been.
+    pub fn new(dialect: &str, lenient: bool, settings: &[String]) -> Result<Self, String> {
+        let Some(dialect) = Dialect::named(dialect) else {
+            return Err(format!("dialect = \"{dialect}\"; write ngc, fanuc-mill or fanuc-turn"));
+        };
+        let mut fanuc = Settings::default();
+        for text in settings {
+            fanuc.set(text)?;
+        }
+        Ok(Language { dialect, lenient, fanuc: Arc::new(fanuc) })
+    }
+}
+
 /// How a code calls a macro.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum MacroCall {

@@ -87,7 +87,8 @@ impl Machine {
             origin.swap(0, 1);
         }
         let pockets = segs[0].from.x != segs[0].to.x && segs[0].from.z != segs[0].to.z;
-        let cuts = self.roughing(&contour, origin, depth, pockets, at)?;
+        let across = if facing { allowance[0] } else { allowance[1] };
+        let cuts = self.roughing(&contour, origin, (depth, across.abs()), pockets, at)?;
         let mut tool = Rough { machine: self, io, facing, origin, start, retract, at };
         for cut in &cuts {
             tool.cut(cut)?;
@@ -97,7 +98,14 @@ impl Machine {
     }
 
     /// All passes of a contour in (along, across).
-    fn roughing(&self, contour: &[Curve], start: Point, depth: f64, pockets: bool, at: Span) -> Result<Vec<(Pass, f64)>, Box<Diag>> {
+    fn roughing(
+        &self,
+        contour: &[Curve],
+        start: Point,
+        (depth, allowance): (f64, f64),
+        pockets: bool,
+        at: Span,
+    ) -> Result<Vec<(Pass, f64)>, Box<Diag>> {
         let wrong = |label: &str, help: &str| Box::new(Diag::new(Code::BadContour, at, label).help(help));
         let points = turning::flattened(contour, 0.002).ok_or_else(|| wrong("the contour is too long", "write fewer or smaller arcs"))?;
         let (Some(first), Some(last)) = (points.first(), points.last()) else {
@@ -109,7 +117,7 @@ impl Machine {
         }
         let deepest = points.iter().map(|p| p[1]).fold(first[1], |a, b| if (b - start[1]).abs() > (a - start[1]).abs() { b } else { a });
         let inward = (deepest - start[1]).signum();
-        if points.iter().any(|p| (p[1] - start[1]) * inward < -1e-6) {
+        if points.iter().any(|p| (p[1] - start[1]) * inward < -1e-6 - allowance) {
             return Err(wrong("the contour goes beyond the start point", "start the cycle outside of the stock"));
         }
         if !pockets && points.windows(2).any(|w| (w[1][1] - w[0][1]) * inward > 1e-6) {
