@@ -157,7 +157,8 @@ impl Machine {
                     | Meaning::Cylinder
             )
         };
-        if b.code(takes).is_some() {
+        let without_effect = |c: &super::block::GCode| c.group == 0 && matches!(c.meaning, Meaning::Nothing(_));
+        if b.code(takes).is_some() || b.codes.iter().any(without_effect) {
             return Ok(());
         }
         if let Some(code) = b.code(|m| matches!(m, Meaning::Multi(_))) {
