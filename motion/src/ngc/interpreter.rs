@@ -77,7 +77,8 @@ impl Interpreter {
             fanuc::prepare(&mut state, dialect);
             Box::new(fanuc::Machine::new(source, text.clone(), &options, &state))
         });
-        let flow = Flow::new(Files::new(source, text, options.style));
+        let mut flow = Flow::new(Files::new(source, text, options.style));
+        flow.lenient = options.language.lenient;
         let queue = prologue(&state, &options).into_iter().map(|command| Step { block: 0, line: 0, n: None, command }).collect();
         Interpreter {
             flow,
@@ -118,7 +119,9 @@ impl Interpreter {
             self.fanuc = Some(self.advance_fanuc(machine));
             return;
         }
-        match self.flow.next_row() {
+        let next = self.flow.next_row();
+        self.diags.append(&mut self.flow.notes);
+        match next {
             Next::Row(row) => self.row(&row),
             Next::Percent(start, end) => self.percent(start, end),
             Next::Wrong(fault, line) => {
@@ -294,11 +297,20 @@ impl Interpreter {
             self.diags.push(Diag::new(Code::BadCharacter, span, "`%` inside of the program").help(help));
             return;
         }
+        if self.opened && self.state.options.language.lenient && !self.rest_is_blank(end) {
+            let span = Span::new(self.flow.files.source(), start, end);
+            let diag = Diag::new(Code::LeftOut, span, "`%` inside of the program").help("the program goes on behind it");
+            return self.diags.push(diag);
+        }
         if self.opened {
             self.finish();
         }
         self.percent = true;
         self.opened = true;
+    }
+
+    fn rest_is_blank(&self, from: usize) -> bool {
+        self.flow.files.text_ref()[from..].bytes().all(|b| b.is_ascii_whitespace() || b == b'%')
     }
 
     fn end_of_text(&mut self) {

@@ -15,6 +15,7 @@ pub mod fault;
 pub mod flow;
 pub mod host;
 pub mod interpreter;
+mod lenient;
 mod limits;
 pub mod lines;
 pub mod modal;

@@ -4,7 +4,6 @@
 use super::block::{Block, GCode};
 use super::calls::bad;
 use super::kernel::Io;
-use super::reader::Row;
 use super::table::{Meaning, NAMES};
 use super::{Machine, Went};
 use crate::canon::{Canon, Plane, ProgramEnd};
@@ -14,7 +13,7 @@ use takt_base::{Code, Diag};
 
 impl Machine {
     /// Executes a block whose words have values.
-    pub(super) fn block(&mut self, b: &Block, row: &Row, io: &mut Io) -> Went {
+    pub(super) fn block(&mut self, b: &Block, io: &mut Io) -> Went {
         if self.recording.is_some() {
             let done = self.record(b, io);
             self.done(done, io);
@@ -51,10 +50,9 @@ impl Machine {
             let done = part(self, b, io);
             self.done(done, io);
         }
-        let went = self.stops(b, io);
         self.end_exact(b, io);
+        let went = self.stops(b, io);
         self.unused(b, io);
-        debug_assert!(row.place.0 <= row.place.1);
         went
     }
 

@@ -6,10 +6,11 @@ use super::vars::Locals;
 use crate::ngc::fault::Fault;
 use crate::ngc::flow::Quick;
 use crate::ngc::host::HostRef;
+use crate::ngc::lenient;
 use crate::ngc::lines::{Lines, Place, Style};
 use std::collections::HashMap;
 use std::sync::Arc;
-use takt_base::{Code, SourceId};
+use takt_base::{Code, Diag, SourceId};
 
 /// Rows that are kept.
 const KEPT_MAX: usize = 100_000;
@@ -91,6 +92,10 @@ pub struct Flow {
     jumped: bool,
     /// Number of the program at hand.
     pub program: u32,
+    /// Takes files as users stream them.
+    pub lenient: bool,
+    /// What was passed over.
+    pub notes: Vec<Diag>,
 }
 
 fn misfit(place: (u32, u32), label: impl Into<String>, help: &str) -> Fault {
@@ -114,6 +119,8 @@ impl Flow {
             here: Spot::default(),
             jumped: false,
             program: 0,
+            lenient: false,
+            notes: Vec::new(),
         }
     }
 
@@ -171,7 +178,7 @@ impl Flow {
             self.files[self.at as usize].lines.place = next;
             return Next::Row(row);
         }
-        let File { text, lines, .. } = &mut self.files[self.at as usize];
+        let File { text, lines, source, .. } = &mut self.files[self.at as usize];
         let Some(piece) = lines.next(text) else { return Next::End };
         let inside = &text[piece.range.clone()];
         if inside.trim_start_matches([' ', '\t']).starts_with('%') {
@@ -181,7 +188,13 @@ impl Flow {
             self.current = Arc::default();
         }
         let Some(row) = Arc::get_mut(&mut self.current) else { return Next::End };
-        if let Err(fault) = self.reader.read(inside, piece.range.start, piece.line, row) {
+        let cleaned = if self.lenient { lenient::clean(inside, *source, piece.range.start) } else { None };
+        let inside = cleaned.as_ref().map_or(inside, |c| c.0.as_str());
+        let read = self.reader.read(inside, piece.range.start, piece.line, row);
+        if let Some((_, notes)) = cleaned {
+            self.notes.extend(notes);
+        }
+        if let Err(fault) = read {
             return Next::Wrong(fault, piece.line);
         }
         let again = self.jumped || !self.frames.is_empty() || !self.loops.is_empty();

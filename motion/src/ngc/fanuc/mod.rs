@@ -102,8 +102,10 @@ impl Machine {
     /// At the start of a text.
     pub fn new(source: SourceId, text: Arc<str>, options: &Options, state: &State) -> Self {
         let language = &options.language;
+        let mut flow = Flow::new(source, text, options.style);
+        flow.lenient = language.lenient;
         Machine {
-            flow: Flow::new(source, text, options.style),
+            flow,
             vars: Vars::new(state),
             modes: Modes::new(language.dialect, language.fanuc.clone(), state),
             block: Block::default(),
@@ -133,7 +135,9 @@ impl Machine {
 
     /// Reads and executes one row.
     pub fn advance(&mut self, io: &mut Io) -> Went {
-        match self.flow.next_row() {
+        let next = self.flow.next_row();
+        io.out.diags.append(&mut self.flow.notes);
+        match next {
             Next::Row(row) => self.row(&row, io),
             Next::Percent(start, end) => self.percent(start, end, io),
             Next::Wrong(fault, line) => {
@@ -293,7 +297,7 @@ impl Machine {
         let mut block = std::mem::take(&mut self.block);
         let view = View { vars: &self.vars, modes: &self.modes, state: io.state };
         block.fill(row, self.flow.source(), &view, &mut self.stack, io.out.diags);
-        let went = if block.is_empty() || io.failed() { Went::On } else { self.block(&block, row, io) };
+        let went = if block.is_empty() || io.failed() { Went::On } else { self.block(&block, io) };
         self.block = block;
         went
     }

@@ -203,6 +203,14 @@ impl Machine {
             if self.modes.clamp.is_some() && b.any("S") {
                 return Ok(());
             }
+            if io.state.options.language.lenient {
+                self.plain(at, "another origin", io)?;
+                let help = "all axes become 0 here, as printers take it; write the axes";
+                io.wrong(Diag::new(takt_base::Code::LeftOut, at, "new coordinates without axis words").help(help));
+                self.modes.shift = plus(self.modes.shift, scaled(self.modes.at, io.state.unit()));
+                self.apply_origin(io);
+                return Ok(());
+            }
             return Err(Box::new(missing(at, "an axis word").help("write the coordinates that the present point gets")));
         }
         self.plain(at, "another origin", io)?;
