@@ -80,6 +80,46 @@ fn random_bytes() {
     }
 }
 
+/// Programs of the Fanuc-style dialects with every code, and macro statements, cut and mixed.
+#[test]
+fn mutated_fanuc_programs() {
+    let mut random = Random(4);
+    let rows = include_str!("fanuc/codes.txt").lines().filter_map(|row| row.split('|').nth(1));
+    let seeds: Vec<String> = rows.chain(MACROS.iter().copied()).map(|row| row.replace("\\n", "\n")).collect();
+    for i in 0..RUNS {
+        let mut bytes = random.pick(&seeds).clone().into_bytes();
+        if i % 3 == 0 {
+            bytes.extend(b"\n");
+            bytes.extend(random.pick(&seeds).bytes());
+        }
+        for _ in 0..=random.below(4) {
+            mutate(&mut bytes, &mut random);
+        }
+        let text = String::from_utf8_lossy(&bytes);
+        let dialect = *random.pick(&[Dialect::FanucMill, Dialect::FanucTurn]);
+        let language = Language { dialect, lenient: i % 5 == 0, ..Language::default() };
+        let options = Options { language, silent_rows_max: 2000, ..options(&mut random) };
+        let steps = Interpreter::new(SourceId(0), &*text, options.clone()).take(5000).filter(Result::is_ok).count();
+        assert!(steps > 0, "{text:?}");
+        // A check follows endless programs very far: only those without loops are checked.
+        if !text.to_ascii_uppercase().contains(['O', 'D']) && !text.contains("99") {
+            let diags = check(SourceId(0), &*text, options);
+            assert!(diags.iter().all(|d| d.span.start <= d.span.end && d.span.end as usize <= text.len()), "{text:?}");
+        }
+    }
+}
+
+const MACROS: [&str; 8] = [
+    "#1=0\\nWHILE[#1 LT 3]DO1\\nG0 X#1\\n#1=#1+1\\nEND1",
+    "IF[#1 EQ #0]GOTO 20\\nG0 X1\\nN20 G0 X[SIN[30]*POW[2,3]]",
+    "G65 P9 A1 I2 J3 I4\\nM30\\nO9\\n#100=#1+#4*#7\\nM99 P5",
+    "M98 P20009\\nM30\\nO9\\nG91 G0 X1\\nM99",
+    "#5221=10\\n#101=BCD[12] AND 7 OR 8\\n#[100+1]=##1\\n#3006=1(X)",
+    "F9 G1 X10,R2\\nY10,C1\\nG3 X0 Y20 R10\\nG40",
+    "F9 G6.2 P3 K0 X0 Y0\\nK0 X5 Y5\\nK0 X10 Y0\\nK1\\nK1\\nK1\\nG0 X0",
+    "G98 F9 G0 X40\\nG12.1\\nG1 X30 C4\\nG3 X20 C0 R20\\nG13.1",
+];
+
 #[test]
 fn mutated_programs() {
     let mut random = Random(2);
