@@ -109,6 +109,11 @@ fn mutated_fanuc_programs() {
     }
 }
 
+/// Programs with G70 to G72.
+fn contours() -> impl Iterator<Item = String> {
+    include_str!("corpus/lathe.txt").lines().map(|row| row.replace("\\n", "\n"))
+}
+
 const MACROS: [&str; 8] = [
     "#1=0\\nWHILE[#1 LT 3]DO1\\nG0 X#1\\n#1=#1+1\\nEND1",
     "IF[#1 EQ #0]GOTO 20\\nG0 X1\\nN20 G0 X[SIN[30]*POW[2,3]]",
@@ -124,7 +129,7 @@ const MACROS: [&str; 8] = [
 fn mutated_programs() {
     let mut random = Random(2);
     let seeds: Vec<String> =
-        (0..200).map(|_| program(&mut random, 6)).chain([include_str!("ngc/plate.ngc").to_owned()]).collect();
+        (0..200).map(|_| program(&mut random, 6)).chain([include_str!("ngc/plate.ngc").to_owned()]).chain(contours()).collect();
     for i in 0..RUNS {
         let mut bytes = random.pick(&seeds).clone().into_bytes();
         for _ in 0..=random.below(4) {

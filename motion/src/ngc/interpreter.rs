@@ -227,6 +227,9 @@ impl Interpreter {
             return;
         }
         self.then(then, row);
+        if self.diags.len() > diags_before && self.failed_now(diags_before) && !self.state.options.drop_in {
+            self.queue.truncate(mark);
+        }
     }
 
     fn failed_now(&self, before: usize) -> bool {
@@ -245,6 +248,7 @@ impl Interpreter {
                     self.fail(fault);
                 }
             }
+            Then::Contour(tenths) => self.contour_cycle(tenths, row),
             Then::Return => {
                 let depth = self.flow.depth();
                 if !self.flow.leave(&mut self.state) {
@@ -254,6 +258,64 @@ impl Interpreter {
                 }
             }
         }
+    }
+
+    /// The parts at work, for a cycle that makes many moves.
+    pub(super) fn parts(&mut self) -> (&Request, &mut State, &mut VecDeque<Step>, &mut Vec<Diag>, u32) {
+        (&self.request, &mut self.state, &mut self.queue, &mut self.diags, self.block)
+    }
+
+    /// The words of the block.
+    pub(super) fn request_ref(&self) -> &Request {
+        &self.request
+    }
+
+    /// Where the program goes on.
+    pub(super) fn flow_mut(&mut self) -> &mut Flow {
+        &mut self.flow
+    }
+
+    /// What is wrong so far.
+    pub(super) fn diags_mut(&mut self) -> &mut Vec<Diag> {
+        &mut self.diags
+    }
+
+    /// A mistake of a cycle.
+    pub(super) fn note(&mut self, diag: Diag) {
+        self.diags.push(diag);
+    }
+
+    /// Enters the subroutine of a contour.
+    pub(super) fn enter_sub(&mut self, number: u32, place: (u32, u32)) -> Result<(), Fault> {
+        self.flow.call_program(number, 1, place, &mut self.state)
+    }
+
+    /// Leaves it before its end.
+    pub(super) fn leave_sub(&mut self) {
+        self.flow.leave(&mut self.state);
+        self.state.saved.pop();
+    }
+
+    /// An O word of a contour; modes that were saved in it are forgotten.
+    pub(super) fn obey(&mut self, word: &super::oword::OWord) -> Result<After, Fault> {
+        let after = self.flow.obey(word, &mut self.state, &mut self.stack)?;
+        if after == After::Returned {
+            self.state.saved.pop();
+        }
+        Ok(after)
+    }
+
+    /// Computes the words of a row of a contour; returns how many diagnostics there were before.
+    pub(super) fn fill_request(&mut self, row: &Row) -> usize {
+        let (source, before) = (self.flow.files.source(), self.diags.len());
+        self.state.line = row.line;
+        self.request.fill(row, source, &self.flow.code, &mut self.state, &mut self.stack, &mut self.diags);
+        before
+    }
+
+    /// Modes and place of the contour.
+    pub(super) fn modal_mut(&mut self) -> &mut Modal {
+        &mut self.state.modal
     }
 
     /// M99 in the main program starts it anew.

@@ -7,6 +7,7 @@
 pub mod arc;
 pub mod code;
 pub mod comp;
+mod contour;
 pub mod cycle;
 pub mod execute;
 pub mod expr;

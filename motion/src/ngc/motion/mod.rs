@@ -39,6 +39,10 @@ pub fn run(run: &mut Run, motion: Motion) -> Done {
         Motion::Synchronized => spindle::synchronized(run),
         Motion::RigidTap => spindle::rigid_tap(run),
         Motion::Thread => cycle::thread::run(run),
+        Motion::Contour(tenths) => {
+            run.then = super::execute::Then::Contour(tenths);
+            Ok(())
+        }
         Motion::Cubic | Motion::Quadratic | Motion::Nurbs | Motion::NurbsEnd => spline::run(run, motion),
     }
 }

@@ -2,6 +2,7 @@
 //! Points are [along, across]: a pass is cut along at a level across. Facing swaps the two. Runs: background.
 
 mod passes;
+pub mod walk;
 
 pub use passes::{Pass, levels, passes};
 
