@@ -196,8 +196,13 @@ fn places_of_all_errors() {
 
 #[test]
 fn every_n_code_is_provoked_and_has_a_page() {
-    let provoked: BTreeSet<&str> =
-        CASES.iter().map(|c| c.1).chain(OTHERS.iter().map(|o| o.2)).flat_map(|want| want.split(", ")).filter_map(|w| w.split(' ').next()).collect();
+    let provoked: BTreeSet<&str> = CASES
+        .iter()
+        .map(|c| c.1)
+        .chain(OTHERS.iter().map(|o| o.2))
+        .flat_map(|want| want.split(", "))
+        .filter_map(|w| w.split(' ').next())
+        .collect();
     for code in Code::ALL.iter().filter(|c| c.text().starts_with('N') && **c != Code::BadTable) {
         assert!(provoked.contains(code.text()), "{} is never provoked", code.text());
         let page = code.page();

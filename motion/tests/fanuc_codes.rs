@@ -42,14 +42,21 @@ fn shown(command: &Canon) -> String {
         Canon::StraightFeed(p) => format!("feed {}", place(p)),
         Canon::SetOriginOffsets(p) => format!("origin {}", place(p)),
         Canon::ArcFeed(a) => {
-            format!("arc {} {}", numbers(&[a.first_end, a.second_end, a.first_axis, a.second_axis]), numbers(&[a.rotation.into(), a.axis_end_point]))
+            format!(
+                "arc {} {}",
+                numbers(&[a.first_end, a.second_end, a.first_axis, a.second_axis]),
+                numbers(&[a.rotation.into(), a.axis_end_point])
+            )
         }
         other => {
             let text = print::command(other);
             let (name, inside) = text.split_once('(').unwrap();
             let inside = inside.trim_end_matches(')');
-            let args: Vec<String> =
-                inside.split(", ").map(|a| if a.contains('.') { short(a) } else { a.to_owned() }).filter(|a| !a.is_empty()).collect();
+            let args: Vec<String> = inside
+                .split(", ")
+                .map(|a| if a.contains('.') { short(a) } else { a.to_owned() })
+                .filter(|a| !a.is_empty())
+                .collect();
             [name.to_owned()].into_iter().chain(args).collect::<Vec<_>>().join(" ")
         }
     }
@@ -109,8 +116,15 @@ fn the_table_has_every_code_of_the_book() {
 /// R2-341: codes of the other machine are refused, with what to write instead.
 #[test]
 fn codes_of_the_other_machine() {
-    for (machine, program) in [("turn", "G91"), ("turn", "G43 H1"), ("turn", "G33 Z1"), ("turn", "G95"), ("mill", "G32 Z1"), ("mill", "G71"), ("mill", "G25")]
-    {
+    for (machine, program) in [
+        ("turn", "G91"),
+        ("turn", "G43 H1"),
+        ("turn", "G33 Z1"),
+        ("turn", "G95"),
+        ("mill", "G32 Z1"),
+        ("mill", "G71"),
+        ("mill", "G25"),
+    ] {
         assert_eq!(given(machine, program), "N0003", "{machine} {program}");
     }
 }
@@ -118,7 +132,9 @@ fn codes_of_the_other_machine() {
 /// R2-343: two codes of one modal group in a block.
 #[test]
 fn two_codes_of_a_group() {
-    for (machine, program) in [("mill", "G0 G1 X1"), ("mill", "G90 G91"), ("mill", "G17 G18"), ("turn", "G98 G99"), ("mill", "G54 G55")] {
+    for (machine, program) in
+        [("mill", "G0 G1 X1"), ("mill", "G90 G91"), ("mill", "G17 G18"), ("turn", "G98 G99"), ("mill", "G54 G55")]
+    {
         assert_eq!(given(machine, program), "N0004", "{machine} {program}");
     }
 }

@@ -99,10 +99,16 @@ fn round_in_an_address() {
 
 #[test]
 fn loops_and_jumps() {
-    assert_eq!(xs("#1=0\nWHILE[#1 LT 3]DO1\n#2=0\nWHILE[#2 LT 2]DO2\nG0 X[#1*10+#2]\n#2=#2+1\nEND2\n#1=#1+1\nEND1"), [0.0, 1.0, 10.0, 11.0, 20.0, 21.0]);
+    assert_eq!(
+        xs("#1=0\nWHILE[#1 LT 3]DO1\n#2=0\nWHILE[#2 LT 2]DO2\nG0 X[#1*10+#2]\n#2=#2+1\nEND2\n#1=#1+1\nEND1"),
+        [0.0, 1.0, 10.0, 11.0, 20.0, 21.0]
+    );
     assert_eq!(xs("#1=1\nN10 G0 X#1\n#1=#1+1\nIF[#1 LE 3]GOTO 10\nGOTO[10*2]\nX99\nN20 X50"), [1.0, 2.0, 3.0, 50.0]);
     // A jump out of a loop leaves it; the loop can start again.
-    assert_eq!(xs("#2=0\nN1 #1=0\nWHILE[#1 LT 9]DO1\nG0 X#1\nIF[#1 EQ 1]GOTO 5\n#1=#1+1\nEND1\nN5 #2=#2+1\nIF[#2 LT 2]GOTO 1"), [0.0, 1.0, 0.0, 1.0]);
+    assert_eq!(
+        xs("#2=0\nN1 #1=0\nWHILE[#1 LT 9]DO1\nG0 X#1\nIF[#1 EQ 1]GOTO 5\n#1=#1+1\nEND1\nN5 #2=#2+1\nIF[#2 LT 2]GOTO 1"),
+        [0.0, 1.0, 0.0, 1.0]
+    );
     // The nearest block of the number behind the jump counts.
     assert_eq!(xs("N5 #1=#1+1\nIF[#1 GT 1]GOTO 9\nGOTO 5\nG0 X1\nN5 G0 X2\nN9 X3"), [2.0, 3.0]);
 }
@@ -118,7 +124,9 @@ fn arguments_of_both_kinds() {
     assert_eq!(xs(&text), [1.0]);
     let sets: String = (0..10).map(|i| format!("I{} J{} K{} ", 4 + 3 * i, 5 + 3 * i, 6 + 3 * i)).collect();
     let mut text = format!("G65 P1 A1 B2 C3 {sets}\nM30\nO1\n");
-    (1..=33).for_each(|n| drop(writeln!(text, "IF[#{n} NE {n}]THEN #3000=1")));
+    for n in 1..=33 {
+        let _ = writeln!(text, "IF[#{n} NE {n}]THEN #3000=1");
+    }
     assert_eq!(xs(&(text + "G0 X1\nM99\n")), [1.0]);
     // The later of two words for one variable counts.
     assert_eq!(xs("G65 P1 A1 B2 I-3 I4 D5\nM30\nO1\nG0 X#7\nM99"), [5.0]);
@@ -163,7 +171,19 @@ fn user_codes_call_macros() {
 
 #[test]
 fn settings_that_are_none() {
-    for text in ["", "G", "G100", "G100=x", "G100=odd 5", "Q1=5", "rough_depth=-1", "rough_depth=0", "chord_tolerance=nan", "T1=5", "äö=1"] {
+    for text in [
+        "",
+        "G",
+        "G100",
+        "G100=x",
+        "G100=odd 5",
+        "Q1=5",
+        "rough_depth=-1",
+        "rough_depth=0",
+        "chord_tolerance=nan",
+        "T1=5",
+        "äö=1",
+    ] {
         assert!(Language::new("fanuc-mill", false, &[text.to_owned()]).is_err(), "{text}");
     }
     assert!(Language::new("fanuc", false, &[]).is_err());
@@ -185,7 +205,8 @@ fn system_variables() {
     let text = "G55 G91 G18 F123 S500\n#1=#4003 #2=#4014 #3=#4002 #4=#4109 #5=#4119 #6=#4016\nG17 G90\nG0 X#1 Y#2 Z#4\nX#5 Y#6";
     assert_eq!(mill(text), [[91.0, 55.0, 123.0], [500.0, 18.0, 123.0]]);
     assert_eq!(mill("G0 X5\n#5221=2 #5201=1\nG54 G0 X#5041 Y#5021 Z#5001"), [[5.0, 0.0, 0.0], [5.0, 5.0, 2.0]]);
-    let message = steps("fanuc-mill", "#3006=1(TURN THE PART)").iter().any(|s| s.command == Canon::Message("TURN THE PART".into()));
+    let message =
+        steps("fanuc-mill", "#3006=1(TURN THE PART)").iter().any(|s| s.command == Canon::Message("TURN THE PART".into()));
     assert!(message);
 }
 
@@ -206,7 +227,9 @@ fn book_o05_mirror() {
     let text = format!("M98 P9000\nG51.1 X50\nM98 P9000\nG51.1 Y50\nM98 P9000\nG50.1 X0\nM98 P9000\nG50.1 Y0{sub}");
     let flat: Vec<[f64; 2]> = mill(&text).iter().map(|p| [p[0], p[1]]).collect();
     let shape = |f: fn([f64; 2]) -> [f64; 2]| [[60.0, 60.0], [100.0, 60.0], [100.0, 100.0], [60.0, 60.0]].map(f);
-    let want = [shape(|p| p), shape(|[x, y]| [100.0 - x, y]), shape(|[x, y]| [100.0 - x, 100.0 - y]), shape(|[x, y]| [x, 100.0 - y])].concat();
+    let want =
+        [shape(|p| p), shape(|[x, y]| [100.0 - x, y]), shape(|[x, y]| [100.0 - x, 100.0 - y]), shape(|[x, y]| [x, 100.0 - y])]
+            .concat();
     assert_eq!(flat, want);
 }
 
@@ -256,11 +279,14 @@ fn transformations_commute() {
         }
         let moves = |head: &str| {
             let mut tracker = Tracker::new(Position::default());
-            steps("fanuc-mill", &format!("{head}\n{text}")).iter().filter_map(|s| tracker.follow(&s.command)).collect::<Vec<Move>>()
+            steps("fanuc-mill", &format!("{head}\n{text}"))
+                .iter()
+                .filter_map(|s| tracker.follow(&s.command))
+                .collect::<Vec<Move>>()
         };
         let plain = moves("");
         let turned = moves("G51.1 X3\nG51 X1 Y2 P1.5\nG68 X4 Y5 R40");
-        let (sin, cos) = 40f64.to_radians().sin_cos();
+        let (sin, cos) = libm::sincos(40f64.to_radians());
         for (a, b) in plain.iter().zip(&turned).skip(1) {
             let (x, y) = (6.0 - a.to.x, a.to.y);
             let (x, y) = (1.0 + 1.5 * (x - 1.0), 2.0 + 1.5 * (y - 2.0));
@@ -285,7 +311,8 @@ fn polar_interpolation() {
                 let linear = (p.x - x).abs();
                 minutes += if linear > 0.0 { linear } else { (p.c - c).abs() } / feed;
                 (x, c) = (p.x, p.c);
-                let here = [x * c.to_radians().cos(), x * c.to_radians().sin()];
+                let (sin, cos) = libm::sincos(c.to_radians());
+                let here = [x * cos, x * sin];
                 let on_line = (here[1] - 10.0).abs().min((here[1] + 10.0).abs()).min((here[0] - 20.0).abs());
                 let on_arc = (((here[0] + 20.0).powi(2) + here[1].powi(2)).sqrt() - 10.0).abs();
                 assert!(on_line.min(on_arc) < 0.003, "{here:?}");
@@ -334,10 +361,19 @@ fn corners() {
     let found = mill("F9 G1 X10 ,R1\nG2 X20 Y10 R10");
     assert_eq!(found.len(), 3);
     // Of turning without a comma; X is a diameter.
-    assert_eq!(turn("G98 F9 G0 X20 Z0\nG1 Z-10 R2\nX40"), [[10.0, 0.0, 0.0], [10.0, 0.0, -8.0], [12.0, 0.0, -10.0], [20.0, 0.0, -10.0]]);
-    assert_eq!(turn("G98 F9 G0 X20 Z0\nG1 Z-10 C1\nX40"), [[10.0, 0.0, 0.0], [10.0, 0.0, -9.0], [11.0, 0.0, -10.0], [20.0, 0.0, -10.0]]);
+    assert_eq!(
+        turn("G98 F9 G0 X20 Z0\nG1 Z-10 R2\nX40"),
+        [[10.0, 0.0, 0.0], [10.0, 0.0, -8.0], [12.0, 0.0, -10.0], [20.0, 0.0, -10.0]]
+    );
+    assert_eq!(
+        turn("G98 F9 G0 X20 Z0\nG1 Z-10 C1\nX40"),
+        [[10.0, 0.0, 0.0], [10.0, 0.0, -9.0], [11.0, 0.0, -10.0], [20.0, 0.0, -10.0]]
+    );
     // The feed of a block is that of its own move.
-    let feeds: Vec<f64> = steps("fanuc-mill", "F9 G1 X10 ,C2\nY10 F5").iter().filter_map(|s| if let Canon::SetFeedRate(f) = s.command { Some(f) } else { None }).collect();
+    let feeds: Vec<f64> = steps("fanuc-mill", "F9 G1 X10 ,C2\nY10 F5")
+        .iter()
+        .filter_map(|s| if let Canon::SetFeedRate(f) = s.command { Some(f) } else { None })
+        .collect();
     assert_eq!(feeds, [9.0, 5.0, 9.0, 5.0]);
 }
 
@@ -358,7 +394,10 @@ fn roughing_stays_outside_of_the_contour() {
         text = text.replacen("N1 G0 X10\n", "N1 G0 X10\nG1 Z0\n", 1);
         let program = format!("G98 F100 G0 X70 Z2\nG71 U1.5 R0.5\nG71 P1 Q9 U0.4 W0.1\n{text}N9 X70\nM30");
         let found = steps("fanuc-turn", &program);
-        let cuts = found.iter().filter(|s| s.line == 3).filter_map(|s| if let Canon::StraightFeed(p) = s.command { Some(p) } else { None });
+        let cuts = found
+            .iter()
+            .filter(|s| s.line == 3)
+            .filter_map(|s| if let Canon::StraightFeed(p) = s.command { Some(p) } else { None });
         for p in cuts {
             // The contour below the tool, with its allowance.
             let height = contour.windows(2).filter(|w| w[0][0] >= p.z - 0.1 && p.z - 0.1 >= w[1][0]).map(|w| {
@@ -376,7 +415,21 @@ fn roughing_stays_outside_of_the_contour() {
 fn inches_and_millimetres() {
     let text = |u: f64| {
         let n = |v: f64| format!("{:.9}", v * u);
-        format!("F{} G0 Z{}\nG81 X{} Y{} Z{} R{}\nX{}\nG80\nG68 X{} Y0 R30\nG1 X{} Y{}\nG2 X{} R{}", n(100.0), n(5.0), n(1.0), n(2.0), n(-4.0), n(1.0), n(9.0), n(3.0), n(4.0), n(6.0), n(8.0), n(50.0))
+        format!(
+            "F{} G0 Z{}\nG81 X{} Y{} Z{} R{}\nX{}\nG80\nG68 X{} Y0 R30\nG1 X{} Y{}\nG2 X{} R{}",
+            n(100.0),
+            n(5.0),
+            n(1.0),
+            n(2.0),
+            n(-4.0),
+            n(1.0),
+            n(9.0),
+            n(3.0),
+            n(4.0),
+            n(6.0),
+            n(8.0),
+            n(50.0)
+        )
     };
     let (mm, inch) = (mill(&format!("G21\n{}", text(1.0))), mill(&format!("G20\n{}", text(1.0 / 25.4))));
     assert_eq!(mm.len(), inch.len());
@@ -410,7 +463,9 @@ fn wild_programs_end_with_a_message() {
 #[test]
 fn m99_repeats_the_program() {
     let text = "O1\nG91 G0 X1\nM99";
-    let moves = Interpreter::new(SourceId(0), text, options("fanuc-mill", &[])).take(300).filter(|s| matches!(s.as_ref().map(|s| &s.command), Ok(Canon::StraightTraverse(_))));
+    let moves = Interpreter::new(SourceId(0), text, options("fanuc-mill", &[]))
+        .take(300)
+        .filter(|s| matches!(s.as_ref().map(|s| &s.command), Ok(Canon::StraightTraverse(_))));
     assert!(moves.count() > 290);
     assert!(check(SourceId(0), text, options("fanuc-mill", &[])).iter().all(|d| d.severity != Severity::Error));
 }

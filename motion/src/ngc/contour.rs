@@ -115,7 +115,8 @@ impl Interpreter {
             _ => Kind::Pockets,
         };
         let rough = Rough { kind, increment: job.increment.value, retract: job.retract };
-        let steps = walk::rough(start, &beside, rough).ok_or_else(|| contour_fault(job.at, "too many passes", "write a larger I"))?;
+        let steps =
+            walk::rough(start, &beside, rough).ok_or_else(|| contour_fault(job.at, "too many passes", "write a larger I"))?;
         self.contour_steps(job, &steps, across)
     }
 
@@ -136,7 +137,8 @@ impl Interpreter {
     }
 
     fn check_contour(&self, curves: &[Curve], job: &Job) -> Result<()> {
-        let points = flattened(curves, 0.01).ok_or_else(|| contour_fault(job.at, "the contour is too long", "write fewer or smaller arcs"))?;
+        let points = flattened(curves, 0.01)
+            .ok_or_else(|| contour_fault(job.at, "the contour is too long", "write fewer or smaller arcs"))?;
         let (Some(first), Some(last)) = (points.first(), points.last()) else { return Ok(()) };
         let way = last[0] - first[0];
         let turns = points.windows(2).any(|w| (w[1][0] - w[0][0]) * way.signum() < -1e-6);
@@ -158,7 +160,8 @@ impl Interpreter {
                 Step::Rapid(p) => (Canon::StraightTraverse(place(p)), place(p)),
                 Step::Line(p) => (Canon::StraightFeed(place(p)), place(p)),
                 Step::Arc(p, centre, counterclockwise) => {
-                    let (centre, ccw) = if across { ([centre[1], centre[0]], !counterclockwise) } else { (centre, counterclockwise) };
+                    let (centre, ccw) =
+                        if across { ([centre[1], centre[0]], !counterclockwise) } else { (centre, counterclockwise) };
                     (Canon::ArcFeed(arc_in_plane(centre, if ccw { 1 } else { -1 }, place(p), Plane::Xz)), place(p))
                 }
             };

@@ -10,6 +10,8 @@ use super::state::State;
 use super::word::{self, Action, Control, GROUPS, Group};
 use takt_base::{Code, Diag, SourceId, Span};
 
+mod put;
+
 /// A letter and its number.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Word {
@@ -76,27 +78,6 @@ impl Default for Request {
 }
 
 impl Request {
-    /// Becomes an empty block, for a dialect that puts its own words into it.
-    pub fn reset(&mut self, span: Span, n: Option<u32>) {
-        (self.span, self.n, self.motion) = (span, n, None);
-        (self.has_code, self.has_letter) = (0, 0);
-    }
-
-    /// Puts a code into the block; the last one of a group counts.
-    pub fn put_code(&mut self, action: Action, span: Span) {
-        let group = action.group() as usize;
-        self.has_code |= 1 << group;
-        self.codes[group] = (action, span);
-    }
-
-    /// Puts a word into the block; the last one of a letter counts.
-    pub fn put_word(&mut self, letter: char, value: f64, span: Span) {
-        if let Some(i) = slot(letter) {
-            self.has_letter |= 1 << i;
-            self.letters[i] = Word { letter, value, span };
-        }
-    }
-
     /// Computes and sorts the words of `row`; what is wrong goes to `out`, and the rest is kept. With an unknown code there is no
     /// motion, and no word counts as unused: nobody knows what it would have been for.
     pub fn fill(

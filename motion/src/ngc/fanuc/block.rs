@@ -142,9 +142,13 @@ impl Block {
         for (i, code) in self.codes.iter().enumerate() {
             if let Some(first) = self.codes[..i].iter().find(|c| c.group == code.group && !quiet(code) && !quiet(c)) {
                 out.push(
-                    Diag::new(Code::ModalConflict, code.span, format!("a second code of the group: {}", table::NAMES[code.group]))
-                        .also(first.span, "the first one stands here")
-                        .help("keep one of them, or write two blocks"),
+                    Diag::new(
+                        Code::ModalConflict,
+                        code.span,
+                        format!("a second code of the group: {}", table::NAMES[code.group]),
+                    )
+                    .also(first.span, "the first one stands here")
+                    .help("keep one of them, or write two blocks"),
                 );
             }
         }

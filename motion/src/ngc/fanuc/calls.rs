@@ -77,7 +77,9 @@ impl Machine {
         let program = p.whole().ok_or_else(|| bad(*p, "not the number of a program", "write a whole number"))?;
         let times = match b.words.iter().find(|w| w.letter == b'L') {
             None => 1,
-            Some(l) => l.whole().filter(|&n| n <= TIMES_MAX).ok_or_else(|| bad(*l, "not a number of times", "write a whole number"))?,
+            Some(l) => {
+                l.whole().filter(|&n| n <= TIMES_MAX).ok_or_else(|| bad(*l, "not a number of times", "write a whole number"))?
+            }
         };
         let mut words: Vec<Word> = b.words.iter().copied().filter(|w| !matches!(w.letter, b'L' | b'P' | b'O' | b'N')).collect();
         // M words are arguments here.
@@ -151,7 +153,10 @@ impl Machine {
         };
         let whole = p.whole().ok_or_else(|| bad(p, "not the number of a program", "write a whole number"))?;
         let (number, times) = match b.take(b'L') {
-            Some(l) => (whole, l.whole().filter(|&n| n <= TIMES_MAX).ok_or_else(|| bad(l, "not a number of times", "write a whole number"))?),
+            Some(l) => (
+                whole,
+                l.whole().filter(|&n| n <= TIMES_MAX).ok_or_else(|| bad(l, "not a number of times", "write a whole number"))?,
+            ),
             None if whole > 9999 => (whole % 10_000, whole / 10_000),
             None => (whole, 1),
         };

@@ -87,7 +87,10 @@ impl Machine {
         let pair = curve(&seg, io).zip(curve(&next, io));
         let Some((first, second)) = pair.filter(|_| next.shape != Shape::Rapid) else {
             self.send(seg, feed, io)?;
-            return Err(misfit("no move in the plane follows this corner", "the next block moves in the plane, with G1, G2 or G3"));
+            return Err(misfit(
+                "no move in the plane follows this corner",
+                "the next block moves in the plane, with G1, G2 or G3",
+            ));
         };
         let turn = angle(first.direction_at_end(), second.direction_at_start());
         if turn.abs() < 1e-6 {

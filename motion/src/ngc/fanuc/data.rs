@@ -22,7 +22,9 @@ impl Machine {
             (None, false) => Err(Box::new(missing(at, "L").help(help))),
             (Some(_), _) => {
                 let diag = Diag::new(Code::NotOfThisControl, at, "data of this control that are not here");
-                Err(Box::new(diag.help("tool life and parameters are kept outside of the program; G10 knows L2, L10 to L13, L20")))
+                Err(Box::new(
+                    diag.help("tool life and parameters are kept outside of the program; G10 knows L2, L10 to L13, L20"),
+                ))
             }
         }
     }

@@ -113,9 +113,10 @@ impl Machine {
     pub(super) fn repeats(&self, b: &Block) -> Result<u32, Box<Diag>> {
         match b.take(b'K').or_else(|| b.take(b'L')) {
             None => Ok(1),
-            Some(word) => {
-                word.whole().filter(|&k| k <= HOLES_MAX).ok_or_else(|| bad(word, "not a number of holes", "write a whole number up to 9999"))
-            }
+            Some(word) => word
+                .whole()
+                .filter(|&k| k <= HOLES_MAX)
+                .ok_or_else(|| bad(word, "not a number of holes", "write a whole number up to 9999")),
         }
     }
 
@@ -128,7 +129,9 @@ impl Machine {
         let (r, bottom) = (length(b'R'), length(AXES[axis] as u8));
         let need = |value: Option<f64>, old: Option<f64>, letter: char| {
             value.or(old).ok_or_else(|| {
-                Box::new(missing(at, &letter.to_string()).help("the first block of a cycle names R and the depth: G81 X1 Y2 Z-5 R2"))
+                Box::new(
+                    missing(at, &letter.to_string()).help("the first block of a cycle names R and the depth: G81 X1 Y2 Z-5 R2"),
+                )
             })
         };
         // In G91 R counts from the initial level and the depth from R; levels that are not named stay where they are.
@@ -154,7 +157,10 @@ impl Machine {
             return wrong("no time of a dwell", "P is in milliseconds");
         }
         if drill.r < drill.bottom && !back_boring && !self.modes.turn() {
-            return wrong("R lies below the bottom of the hole", "the tool drills from R to the depth, in the negative direction of the axis");
+            return wrong(
+                "R lies below the bottom of the hole",
+                "the tool drills from R to the depth, in the negative direction of the axis",
+            );
         }
         let pecks = matches!(drill.code, 730 | 830);
         if pecks && (drill.q <= 0.0 || (drill.r - drill.bottom).abs() / drill.q > PECKS_MAX) && !self.modes.turn() {
@@ -410,4 +416,3 @@ impl Hole<'_, '_, '_, '_> {
         Ok(())
     }
 }
-

@@ -196,7 +196,8 @@ impl Machine {
         let lenient = io.state.options.language.lenient;
         for word in b.unused() {
             let name = super::block::name(word.letter);
-            let diag = Diag::new(if lenient { Code::LeftOut } else { Code::UnusedWord }, word.span, format!("nothing reads {name}"));
+            let diag =
+                Diag::new(if lenient { Code::LeftOut } else { Code::UnusedWord }, word.span, format!("nothing reads {name}"));
             let help = match word.letter {
                 b'U' | b'V' | b'W' => "increments by U, V and W belong to turning; milling writes G91",
                 b'c' | b'r' => "a chamfer or corner stands in a block of G1, G2 or G3",

@@ -338,7 +338,8 @@ impl Flow {
             return Err(Fault::at(Code::NestedTooDeeply, place.0, place.1, label, help));
         }
         let start = self.find(call.number, host).ok_or_else(|| {
-            let help = format!("write it behind this one as O{0:04}, or put it into the file O{0:04}.ngc of the folder", call.number);
+            let help =
+                format!("write it behind this one as O{0:04}, or put it into the file O{0:04}.ngc of the folder", call.number);
             Fault::at(Code::MissingSub, place.0, place.1, format!("no program O{:04}", call.number), help)
         })?;
         let (back, loops, program) = (self.spot(), self.loops.len(), self.program);

@@ -7,7 +7,7 @@ use super::kernel::Io;
 use super::modes::Pole;
 use super::table::{self, Meaning};
 use super::transform::axes_of;
-use crate::canon::{Canon, Plane, Position};
+use crate::canon::{Canon, Position};
 use crate::ngc::arc::Point;
 use crate::ngc::execute::Done;
 use crate::ngc::modal::{Distance, FeedMode, from_plane, in_plane};
@@ -210,7 +210,6 @@ impl Machine {
     fn circle(&mut self, b: &Block, clockwise: bool, io: &mut Io) -> Done {
         let spec = Spec::of_commas(self, b)?;
         let to = self.target(b, io)?;
-        let plane = Self::plane(io);
         let mut request = Request::default();
         request.reset(b.span, None);
         if let Some(r) = b.take(b'R') {
@@ -231,7 +230,6 @@ impl Machine {
         }
         let words = ArcWords { request: &request, modal: &modal, end: to, counterclockwise: !clockwise };
         let arc = words.arc(io.out.diags).map_err(Box::new)?;
-        debug_assert!(matches!(plane, Plane::Xy | Plane::Yz | Plane::Xz));
         let shape = Shape::Arc { centre: [arc.first_axis, arc.second_axis], turns: arc.rotation };
         self.go(Seg { from: self.modes.at, to, shape, at: b.span }, spec, io)
     }

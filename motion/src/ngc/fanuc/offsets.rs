@@ -90,7 +90,7 @@ impl Machine {
         for code in &b.codes {
             let before = self.modes.transform;
             let changed = match code.meaning {
-                Meaning::Scale(on) => self.scale(b, on, code.span, io)?,
+                Meaning::Scale(on) => self.scale(b, on, code.span)?,
                 Meaning::Mirror(on) => self.mirror(b, on),
                 Meaning::Rotate(on) => self.rotate(b, on, code.span, io)?,
                 Meaning::Turret(on) => Transform { mirror: [on.then_some(0.0), before.mirror[1], before.mirror[2]], ..before },
@@ -130,7 +130,7 @@ impl Machine {
         })
     }
 
-    fn scale(&mut self, b: &Block, on: bool, at: Span, io: &mut Io) -> Result<Transform, Box<Diag>> {
+    fn scale(&self, b: &Block, on: bool, at: Span) -> Result<Transform, Box<Diag>> {
         let before = self.modes.transform;
         if !on {
             return Ok(Transform { scale: None, ..before });
@@ -158,7 +158,6 @@ impl Machine {
                 [i.unwrap_or(1.0), j.unwrap_or(1.0), k.unwrap_or(1.0)]
             }
         };
-        let _ = io;
         Ok(Transform { scale: Some((factors, centre)), ..before })
     }
 
@@ -176,7 +175,7 @@ impl Machine {
         transform
     }
 
-    fn rotate(&mut self, b: &Block, on: bool, at: Span, io: &Io) -> Result<Transform, Box<Diag>> {
+    fn rotate(&self, b: &Block, on: bool, at: Span, io: &Io) -> Result<Transform, Box<Diag>> {
         let before = self.modes.transform;
         if !on {
             return Ok(Transform { rotation: None, ..before });

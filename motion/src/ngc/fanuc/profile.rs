@@ -23,7 +23,9 @@ impl Machine {
     /// P and Q of a block.
     pub(super) fn bounds(&self, b: &Block, at: Span) -> Result<Bounds, Box<Diag>> {
         let help = "write the N numbers of the first and the last block of the contour: P100 Q200";
-        let word = |letter| Self::whole_word(b, letter, help)?.ok_or_else(|| Box::new(missing(at, &super::block::name(letter)).help(help)));
+        let word = |letter| {
+            Self::whole_word(b, letter, help)?.ok_or_else(|| Box::new(missing(at, &super::block::name(letter)).help(help)))
+        };
         Ok((word(b'P')?, word(b'Q')?))
     }
 
@@ -85,7 +87,9 @@ impl Machine {
             }
         }
         let label = format!("the contour does not come to N{last}");
-        Err(Box::new(Diag::new(Code::MissingBlock, at, label).help("write its last block, with this number, behind the first one")))
+        Err(Box::new(
+            Diag::new(Code::MissingBlock, at, label).help("write its last block, with this number, behind the first one"),
+        ))
     }
 
     /// Reads a contour: its moves, the way to its start first.
@@ -137,7 +141,9 @@ pub fn curves(segs: &[Seg]) -> Vec<Curve> {
         .skip(1)
         .filter(|s| s.from != s.to)
         .map(|s| match s.shape {
-            Shape::Arc { centre, turns } => Curve::Arc { start: flat(s.from), end: flat(s.to), centre, counterclockwise: turns > 0 },
+            Shape::Arc { centre, turns } => {
+                Curve::Arc { start: flat(s.from), end: flat(s.to), centre, counterclockwise: turns > 0 }
+            }
             _ => Curve::Line { start: flat(s.from), end: flat(s.to) },
         })
         .collect()

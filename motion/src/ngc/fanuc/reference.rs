@@ -26,7 +26,7 @@ impl Machine {
                 Meaning::ReferenceCheck => self.reference_check(b, code.span, io)?,
                 Meaning::Reference => self.reference(b, 0, code.span, io)?,
                 Meaning::OtherReference => self.other_reference(b, code.span, io)?,
-                Meaning::FromReference => self.from_reference(b, code.span, io)?,
+                Meaning::FromReference => self.leave_reference(b, code.span, io)?,
                 Meaning::Skip => self.skip(b, code.span, io)?,
                 Meaning::Coordinates => self.coordinates(b, code.span, io)?,
                 Meaning::CoordinatesReset => self.coordinates_reset(code.span, b, io)?,
@@ -46,7 +46,9 @@ impl Machine {
             (Some(word), _) if !word.exact && !self.modes.settings.calculator => word.value / 1000.0,
             (Some(word), _) => word.value,
             (None, Some(word)) => word.value / 1000.0,
-            (None, None) => return Err(Box::new(missing(at, "X or P").help("write the time: G4 X0.5 in seconds, G4 P500 in ms"))),
+            (None, None) => {
+                return Err(Box::new(missing(at, "X or P").help("write the time: G4 X0.5 in seconds, G4 P500 in ms")));
+            }
         };
         if seconds < 0.0 {
             return Err(Box::new(Diag::new(Code::BadValue, at, "a time below zero").help("write zero or more")));
@@ -87,7 +89,9 @@ impl Machine {
         self.free(at, "a reference point", io)?;
         let named = self.named(b);
         if !named.contains(&true) {
-            return Err(Box::new(missing(at, "an axis word").help("write the axes that go there, such as G91 G28 Z0 or G28 U0 W0")));
+            return Err(Box::new(
+                missing(at, "an axis word").help("write the axes that go there, such as G91 G28 Z0 or G28 U0 W0"),
+            ));
         }
         let middle = self.target(b, io)?;
         self.rapid_to(middle, at, io)?;
@@ -124,7 +128,7 @@ impl Machine {
     }
 
     /// G29: over the intermediate point of the last G28 to the target.
-    fn from_reference(&mut self, b: &Block, at: Span, io: &mut Io) -> Done {
+    fn leave_reference(&mut self, b: &Block, at: Span, io: &mut Io) -> Done {
         self.free(at, "a reference point", io)?;
         let Some(middle) = self.modes.middle else {
             return Err(Box::new(not_now(at, "G29 without G28", "write G28 first, or G0")));

@@ -14,41 +14,49 @@ use takt_base::{Code, Diag, Span};
 
 impl Machine {
     pub(super) fn feed_and_speed(&mut self, b: &Block, io: &mut Io) -> Done {
-        let at = b.span;
-        let mut actions = Vec::new();
-        for code in &b.codes {
-            match code.meaning {
-                Meaning::Feed(n) => {
-                    self.said_feed_mode = true;
-                    let mode = [FeedMode::InverseTime, FeedMode::PerMinute, FeedMode::PerRevolution][usize::from(n) - 3];
-                    if mode != io.state.modal.feed_mode {
-                        io.obey(&[Action::Feed(mode)], &[], code.span);
-                    }
-                }
-                Meaning::Surface(on) => actions.push((Action::SurfaceSpeed(on), on, code.span)),
-                _ => {}
-            }
-        }
-        if b.code(|m| m == Meaning::Coordinates).is_some() {
-            self.clamp(b, io)?;
-        } else if b.m.iter().any(|m| m.0 == 19) {
-            b.use_all("S");
-        }
-        let given = if b.code(|m| m == Meaning::Coordinates).is_none() && !b.m.iter().any(|m| m.0 == 19) { b.take(b'S') } else { None };
         if let Some(word) = b.words.iter().find(|w| matches!(w.letter, b'F' | b'S') && w.value < 0.0) {
             return Err(bad(*word, "less than zero", "write zero or more"));
         }
-        if let Some(&(action, on, span)) = actions.first() {
-            let speed = given.map(|w| w.value).or(on.then_some(io.state.modal.speed));
-            let clamp = self.modes.clamp.filter(|_| on);
-            let words: Vec<(char, f64)> = speed.map(|s| ('S', s)).into_iter().chain(clamp.map(|d| ('D', d))).collect();
-            io.obey(&[action], &words, span);
-        } else if let Some(word) = given {
-            io.obey(&[], &[('S', word.value)], word.span);
+        if let Some(code) = b.code(|m| matches!(m, Meaning::Feed(_))) {
+            self.feed_mode(code.meaning, code.span, io);
         }
-        let Some(f) = b.take(b'F') else { return Ok(()) };
-        io.obey(&[], &[('F', f.value)], f.span);
-        let _ = at;
+        self.speed(b, io)?;
+        if let Some(f) = b.take(b'F') {
+            io.obey(&[], &[('F', f.value)], f.span);
+        }
+        Ok(())
+    }
+
+    fn feed_mode(&mut self, meaning: Meaning, at: Span, io: &mut Io) {
+        self.said_feed_mode = true;
+        let mode = match meaning {
+            Meaning::Feed(3) => FeedMode::InverseTime,
+            Meaning::Feed(5) => FeedMode::PerRevolution,
+            _ => FeedMode::PerMinute,
+        };
+        if mode != io.state.modal.feed_mode {
+            io.obey(&[Action::Feed(mode)], &[], at);
+        }
+    }
+
+    /// S with G96 and G97. With G50 and G92 it is the largest speed, with M19 an angle.
+    fn speed(&mut self, b: &Block, io: &mut Io) -> Done {
+        let clamps = b.code(|m| m == Meaning::Coordinates).is_some();
+        if clamps {
+            self.clamp(b, io)?;
+        }
+        let speed = if clamps || b.m.iter().any(|m| m.0 == 19) { None } else { b.take(b'S') };
+        let Some(code) = b.code(|m| matches!(m, Meaning::Surface(_))) else {
+            if let Some(word) = speed {
+                io.obey(&[], &[('S', word.value)], word.span);
+            }
+            return Ok(());
+        };
+        let on = code.meaning == Meaning::Surface(true);
+        let value = speed.map(|w| w.value).or(on.then_some(io.state.modal.speed));
+        let largest = self.modes.clamp.filter(|_| on);
+        let words: Vec<(char, f64)> = value.map(|s| ('S', s)).into_iter().chain(largest.map(|d| ('D', d))).collect();
+        io.obey(&[Action::SurfaceSpeed(on)], &words, code.span);
         Ok(())
     }
 

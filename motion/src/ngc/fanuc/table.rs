@@ -124,8 +124,8 @@ pub const NAMES: [&str; GROUPS] = [
 ];
 
 type Row = (u32, u8, Meaning);
-use Meaning as M;
 use crate::canon::Plane;
+use Meaning as M;
 
 const MONITOR: &str = "the PLC program watches the spindle";
 const SMOOTH: &str = "look-ahead is always on";
@@ -282,7 +282,9 @@ pub fn instead(dialect: Dialect, tenths: u32) -> &'static str {
         (Dialect::FanucTurn, 950) => "turning writes G99 for feed a revolution, G98 for feed a minute",
         (Dialect::FanucTurn, 330) => "turning writes G32 for a thread",
         (Dialect::FanucTurn, 430 | 440 | 490) => "turning takes the tool offset from T, such as T0101",
-        (Dialect::FanucTurn, _) => "see the table of turning codes in the guide; a macro can stand behind a code: --set G100=9010",
+        (Dialect::FanucTurn, _) => {
+            "see the table of turning codes in the guide; a macro can stand behind a code: --set G100=9010"
+        }
         (_, 320) => "milling writes G33 for a thread",
         (_, 70..=72) => "this is a code of turning: --dialect fanuc-turn",
         _ => "see the table of milling codes in the guide; a macro can stand behind a code: --set G100=9010",

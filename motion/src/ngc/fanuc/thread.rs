@@ -65,7 +65,8 @@ impl Machine {
         let end = self.target(b, io)?;
         let one_block = b.any("K");
         let unit = io.state.unit();
-        let need = |letter: u8, help: &str| b.take(letter).ok_or_else(|| Box::new(missing(at, &super::block::name(letter)).help(help)));
+        let need =
+            |letter: u8, help: &str| b.take(letter).ok_or_else(|| Box::new(missing(at, &super::block::name(letter)).help(help)));
         let (height, first, taper) = if one_block {
             let height = need(b'K', "K is the height of the thread")?;
             let first = need(b'D', "D is the depth of the first cut: D300 is 0.3 mm")?;
@@ -79,14 +80,25 @@ impl Machine {
         b.use_all("LP");
         let wrong = |label: &str, help: &str| Err(Box::new(Diag::new(Code::BadValue, at, label).help(help)));
         if height <= 0.0 || first <= 0.0 || first > height {
-            return wrong("height and first cut do not fit", "P is the height above 0, Q the first cut, not deeper than the thread");
+            return wrong(
+                "height and first cut do not fit",
+                "P is the height above 0, Q the first cut, not deeper than the thread",
+            );
         }
         if !(0.0..=120.0).contains(&angle) {
             return wrong("no angle of a thread", "the angle is from 0 to 120 degrees");
         }
         let cuts = self.cuts(first, height, words, unit);
         let Some(cuts) = cuts else { return wrong("more than 10000 cuts", "make the first or the smallest cut larger") };
-        let shape = Thread { start, end, taper, height, slope: libm::tan((angle / 2.0).to_radians()), lead, pullout: words.pullout_leads * lead };
+        let shape = Thread {
+            start,
+            end,
+            taper,
+            height,
+            slope: libm::tan((angle / 2.0).to_radians()),
+            lead,
+            pullout: words.pullout_leads * lead,
+        };
         for depth in cuts {
             self.thread_cut(&shape, depth, at, io)?;
         }
@@ -132,7 +144,8 @@ impl Machine {
         let mut words = self.modes.thread;
         if let Some(p) = b.take(b'P') {
             let number = p.whole().filter(|&n| n <= 999_999);
-            let number = number.ok_or_else(|| bad(p, "not three pairs of digits", "write finishing cuts, pull-out and angle: P021060"))?;
+            let number =
+                number.ok_or_else(|| bad(p, "not three pairs of digits", "write finishing cuts, pull-out and angle: P021060"))?;
             words.finishing = (number / 10_000).max(1);
             words.pullout_leads = f64::from(number / 100 % 100) / 10.0;
             words.angle = f64::from(number % 100);

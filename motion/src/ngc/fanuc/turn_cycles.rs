@@ -46,7 +46,8 @@ impl Machine {
             false => Position { z: start.z + along, x: start.x + beside, ..start },
         };
         for column in 0..=columns as u32 {
-            let beside = if over > 0.0 { (over * f64::from(column)).min(width.abs()) * width.signum() } else { width * f64::from(column) };
+            let beside =
+                if over > 0.0 { (over * f64::from(column)).min(width.abs()) * width.signum() } else { width * f64::from(column) };
             self.step(place(0.0, beside), Shape::Rapid, at, io)?;
             let mut reached = peck;
             while peck > 0.0 && reached < depth.abs() - 1e-9 {

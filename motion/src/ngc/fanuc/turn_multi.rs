@@ -107,7 +107,8 @@ impl Machine {
         at: Span,
     ) -> Result<Vec<(Pass, f64)>, Box<Diag>> {
         let wrong = |label: &str, help: &str| Box::new(Diag::new(Code::BadContour, at, label).help(help));
-        let points = turning::flattened(contour, 0.002).ok_or_else(|| wrong("the contour is too long", "write fewer or smaller arcs"))?;
+        let points =
+            turning::flattened(contour, 0.002).ok_or_else(|| wrong("the contour is too long", "write fewer or smaller arcs"))?;
         let (Some(first), Some(last)) = (points.first(), points.last()) else {
             return Err(wrong("the contour has no length", "write blocks that move along it"));
         };
@@ -115,7 +116,8 @@ impl Machine {
         if points.windows(2).any(|w| (w[1][0] - w[0][0]) * way < -1e-6) {
             return Err(wrong("the contour turns back along the cut", "let it go one way in Z (G71) or X (G72)"));
         }
-        let deepest = points.iter().map(|p| p[1]).fold(first[1], |a, b| if (b - start[1]).abs() > (a - start[1]).abs() { b } else { a });
+        let deepest =
+            points.iter().map(|p| p[1]).fold(first[1], |a, b| if (b - start[1]).abs() > (a - start[1]).abs() { b } else { a });
         let inward = (deepest - start[1]).signum();
         if points.iter().any(|p| (p[1] - start[1]) * inward < -1e-6 - allowance) {
             return Err(wrong("the contour goes beyond the start point", "start the cycle outside of the stock"));
@@ -123,7 +125,8 @@ impl Machine {
         if !pockets && points.windows(2).any(|w| (w[1][1] - w[0][1]) * inward > 1e-6) {
             return Err(wrong("the contour has a pocket", "name both X and Z in its first block: then pockets are cut"));
         }
-        let levels = levels(start[1], deepest, depth).ok_or_else(|| wrong("more than 100000 passes", "make the depth of cut larger"))?;
+        let levels =
+            levels(start[1], deepest, depth).ok_or_else(|| wrong("more than 100000 passes", "make the depth of cut larger"))?;
         let (mut cuts, mut before) = (Vec::new(), start[1]);
         for level in levels {
             cuts.extend(passes(&points, start, level, before).into_iter().filter(|p| p.from != p.to).map(|p| (p, before)));
@@ -169,7 +172,8 @@ impl Machine {
         }
         for k in 0..pattern.1 {
             let share = if pattern.1 > 1 { f64::from(pattern.1 - 1 - k) / f64::from(pattern.1 - 1) } else { 0.0 };
-            let offset = Position { x: u + pattern.0[0] / unit * share, z: w + pattern.0[1] / unit * share, ..Position::default() };
+            let offset =
+                Position { x: u + pattern.0[0] / unit * share, z: w + pattern.0[1] / unit * share, ..Position::default() };
             for seg in &segs {
                 self.shifted_step(seg, offset, at, io)?;
             }

@@ -45,8 +45,18 @@ impl Machine {
             return Ok(());
         }
         match pass {
-            Pass::Along => self.loop_of(start, [Position { x: x + taper, ..start }, Position { x, z, ..start }, Position { z, ..start }], b.span, io),
-            Pass::Face => self.loop_of(start, [Position { z: z + taper, ..start }, Position { x, z, ..start }, Position { x, ..start }], b.span, io),
+            Pass::Along => self.loop_of(
+                start,
+                [Position { x: x + taper, ..start }, Position { x, z, ..start }, Position { z, ..start }],
+                b.span,
+                io,
+            ),
+            Pass::Face => self.loop_of(
+                start,
+                [Position { z: z + taper, ..start }, Position { x, z, ..start }, Position { x, ..start }],
+                b.span,
+                io,
+            ),
             Pass::Thread => self.thread_pass(b, start, [x, z, taper], io),
         }
     }

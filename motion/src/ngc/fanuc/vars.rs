@@ -123,7 +123,9 @@ impl View<'_> {
         let name = format!("_plc_{kind}{i}");
         match self.state.options.host.value(&name) {
             Some(value) => Ok(Some(value)),
-            None => Err((Code::BadVariable, format!("the PLC program offers no {name}"), "it has to offer a variable of this name")),
+            None => {
+                Err((Code::BadVariable, format!("the PLC program offers no {name}"), "it has to offer a variable of this name"))
+            }
         }
     }
 
@@ -205,13 +207,16 @@ impl View<'_> {
     fn memory_c(&self, n: u32) -> Option<f64> {
         let i = n % 1000;
         let (entry, wear) = (self.state.tools.find(i).unwrap_or_default(), self.modes.wear_of(i));
-        Some(self.shown(2, match n / 1000 {
-            10 => wear.z,
-            11 => entry.offset[2],
-            12 => wear.radius,
-            13 => entry.diameter / 2.0,
-            _ => return None,
-        }))
+        Some(self.shown(
+            2,
+            match n / 1000 {
+                10 => wear.z,
+                11 => entry.offset[2],
+                12 => wear.radius,
+                13 => entry.diameter / 2.0,
+                _ => return None,
+            },
+        ))
     }
 }
 

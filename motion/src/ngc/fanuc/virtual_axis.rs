@@ -43,7 +43,11 @@ impl Machine {
     pub(super) fn virtual_axes(&mut self, b: &Block, code: &GCode, io: &mut Io) -> Done {
         self.end_corner(io);
         if io.state.modal.side.is_some() {
-            return Err(Box::new(not_now(code.span, "interpolation of a rotary axis while G41 or G42 is in force", "write G40 first")));
+            return Err(Box::new(not_now(
+                code.span,
+                "interpolation of a rotary axis while G41 or G42 is in force",
+                "write G40 first",
+            )));
         }
         let wanted = match code.meaning {
             Meaning::PolarPlane(on) => on.then_some(Virtual::Polar { zero: io.state.modal.position.c }),
@@ -56,7 +60,11 @@ impl Machine {
             }
         };
         if wanted.is_some() && !self.modes.transform.is_identity() {
-            return Err(Box::new(not_now(code.span, "interpolation of a rotary axis under scaling, mirror or rotation", "end those first")));
+            return Err(Box::new(not_now(
+                code.span,
+                "interpolation of a rotary axis under scaling, mirror or rotation",
+                "end those first",
+            )));
         }
         if wanted.is_some() && io.state.modal.feed_mode != FeedMode::PerMinute {
             let help = "write feed a minute before it: G94, of turning G98";
