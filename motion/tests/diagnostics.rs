@@ -108,7 +108,7 @@ const CASES: &[(&str, &str)] = &[
     ("O100 SUB", "N0019 1:1"),
     ("G71.5 Q1", "N0014 1:1"),
     ("G18 F1 G71 Q1", "N0020 1:8"),
-    ("G18 F1 G0 X9 Z1\no1 sub\nG0 X2\nG1 Z-5\nX4 Z-3\nX9\no1 endsub\nG71 Q1", "N0056 7:1"),
+    ("G18 F1 G0 X9 Z1\no1 sub\nG0 X2\nG1 Z-5\nX4 Z-3\nX9\no1 endsub\nG71 Q1", "N0056 8:1"),
     ("G0 X[1 + * 2]", "N0016 1:10"),
     ("G0 X#<never_set>", "N0017 1:5"),
     ("G0 X[1 / [2 - 2]]", "N0018 1:8"),
