@@ -172,6 +172,8 @@ const OTHERS: &[(&str, &str, &str)] = &[
     ("fanuc-mill", "G0 X1 Q5", "N0009 1:7"),
     ("fanuc-mill", "G84 Z-5 R1 F100", "N0026 1:1"),
     ("fanuc-mill", "G17 G0 X1 N5 N6", "N0005 1:14"),
+    ("fanuc-mill", "F9 G1 X10 ,C2\nM5\nG1 Y5", "N0055 1:11"),
+    ("fanuc-mill", "GOTO 9\nG0 X$\nN9 M30\nO2\nG0 X\nM99\n%\nno program $", "N0002 2:4, N0002 5:4"),
     ("lenient", "M104 S200", "N0057 1:1"),
     ("lenient", "G0 X1\n%\nG0 X2", "N0057 2:1"),
 ];

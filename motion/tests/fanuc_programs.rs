@@ -352,6 +352,14 @@ fn nurbs() {
     assert_eq!(curve.last(), Some(&[0.0, 10.0, 0.0]));
 }
 
+/// Holes on a circle: increments of the angle, K times.
+#[test]
+fn holes_in_polar_coordinates() {
+    let found = mill("F9 G16 G81 X10 Y0 Z-1 R0\nG91 Y90 K3\nG15 G80");
+    let bottoms: Vec<[f64; 2]> = found.iter().filter(|p| p[2] == -1.0).map(|p| [p[0], p[1]]).collect();
+    assert_eq!(bottoms, [[10.0, 0.0], [0.0, 10.0], [-10.0, 0.0], [0.0, -10.0]]);
+}
+
 /// Chamfers and roundings: ends by geometry.
 #[test]
 fn corners() {

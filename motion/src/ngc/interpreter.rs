@@ -63,6 +63,9 @@ pub fn check(source: SourceId, text: impl Into<Arc<str>>, options: Options) -> V
         interpreter.take_found();
         diags.extend(interpreter.diags.drain(..).filter(|d| seen.insert((d.span, d.code))));
     }
+    if let Some(machine) = &mut interpreter.fanuc {
+        diags.extend(machine.unread().into_iter().filter(|d| seen.insert((d.span, d.code))));
+    }
     diags
 }
 

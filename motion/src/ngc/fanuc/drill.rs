@@ -173,7 +173,6 @@ impl Machine {
         let [i, j] = axes_of(Self::plane(io));
         let here: [f64; 6] = self.modes.at.into();
         let end: [f64; 6] = self.target(b, io)?.into();
-        let step = [end[i] - here[i], end[j] - here[j]];
         let incremental = self.modes.incremental;
         let clear = if self.modes.initial_level { drill.initial.max(drill.r) } else { drill.r };
         let clear = if drill.code == 870 { drill.initial } else { clear };
@@ -183,10 +182,9 @@ impl Machine {
         }
         let mut place = here;
         for k in 0..repeats {
-            (place[i], place[j]) = match (k, incremental) {
-                (0, _) | (_, false) => (end[i], end[j]),
-                _ => (place[i] + step[0], place[j] + step[1]),
-            };
+            // Increments, those of polar coordinates too, count from the hole before.
+            let next: [f64; 6] = if k > 0 && incremental { self.target(b, io)?.into() } else { end };
+            (place[i], place[j]) = (next[i], next[j]);
             // Axes beside the plane move with the first hole.
             for (n, value) in end.into_iter().enumerate() {
                 if n != drill.axis && n != i && n != j {

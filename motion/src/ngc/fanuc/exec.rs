@@ -19,6 +19,9 @@ impl Machine {
             self.done(done, io);
             return Went::On;
         }
+        if self.corner.is_some() && !self.goes_on_in_plane(b) {
+            self.end_corner(io);
+        }
         if let Some(result) = self.macro_codes(b, io) {
             return match result {
                 Ok(went) => went,
@@ -54,6 +57,12 @@ impl Machine {
         let went = self.stops(b, io);
         self.unused(b, io);
         went
+    }
+
+    /// A block that may follow a corner: a move at feed and nothing beside it.
+    fn goes_on_in_plane(&self, b: &Block) -> bool {
+        let moves = |c: &GCode| matches!(c.meaning, Meaning::Line | Meaning::Arc(_) | Meaning::Incremental(_));
+        b.m.is_empty() && b.calls.is_empty() && !b.any("ST") && b.codes.iter().all(moves) && (self.names_axis(b) || b.any("IJKR"))
     }
 
     /// Reports a mistake.

@@ -409,6 +409,30 @@ impl Flow {
         self.go(spot);
     }
 
+    /// What can't be read in the rows of the programs of the main text, whether they run or not.
+    pub fn unread(&mut self) -> Vec<Diag> {
+        let File { source, text, lines, .. } = &self.files[0];
+        let (mut scan, mut row, mut found) = (*lines, Row::default(), Vec::new());
+        scan.place = Place::default();
+        let (mut inside, mut opened) = (true, false);
+        while let Some(piece) = scan.next(text) {
+            let part = &text[piece.range.clone()];
+            if part.trim_start_matches([' ', '\t']).starts_with('%') {
+                // The second of two ends a program; what stands behind it is no row.
+                (inside, opened) = (!opened, false);
+                continue;
+            }
+            inside |= matches!(head(part), Head::Program(_));
+            opened |= inside;
+            let cleaned = if self.lenient { lenient::clean(part, *source, piece.range.start) } else { None };
+            let part = cleaned.as_ref().map_or(part, |c| c.0.as_str());
+            if inside && let Err(fault) = self.reader.read(part, piece.range.start, piece.line, &mut row) {
+                found.push(fault.diag(*source));
+            }
+        }
+        found
+    }
+
     /// Goes back to the start (M99 in the main program).
     pub fn restart(&mut self) {
         self.loops.clear();

@@ -127,6 +127,11 @@ impl Machine {
         self.flow.source()
     }
 
+    /// Errors of rows that did not run.
+    pub fn unread(&mut self) -> Vec<Diag> {
+        self.flow.unread()
+    }
+
     /// Back to the start.
     pub fn restart(&mut self) {
         self.flow.restart();

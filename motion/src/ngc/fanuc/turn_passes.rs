@@ -35,8 +35,9 @@ impl Machine {
         let to = self.target(b, io)?;
         let x = if b.any("XU") { Some(to.x) } else { old.x };
         let z = if b.any("ZW") { Some(to.z) } else { old.z };
-        // R is the way from the end of the cut back to its start on the tapered axis.
-        let taper = b.take(b'R').map_or(old.taper, |w| self.length_of(w));
+        // R, formerly I or K, is the way from the end of the cut back to its start on the tapered axis.
+        let older = if pass == Pass::Face { b'K' } else { b'I' };
+        let taper = b.take(b'R').or_else(|| b.take(older)).map_or(old.taper, |w| self.length_of(w));
         self.modes.pass = PassWords { code, x, z, taper };
         let (Some(x), Some(z)) = (x, z) else {
             return Err(Box::new(missing(b.span, "X or Z").help("the first block of a cycle names X and Z: G90 X40 Z-30 F0.2")));
