@@ -6,6 +6,7 @@ use common::programs::Random;
 use std::fmt::Write;
 use takt_base::{Code, Severity, SourceId};
 use takt_motion::canon::{Canon, Position, Step};
+use takt_motion::feeder::{PartProgram, ngc_reader};
 use takt_motion::ngc::{Dialect, Interpreter, Language, Options, check};
 use takt_motion::toolpath::{Move, Tracker};
 
@@ -487,4 +488,14 @@ fn long_and_wrong_programs() {
     let steps: Vec<Step> = interpreter.by_ref().map_while(Result::ok).collect();
     assert!(steps.iter().all(|s| s.line < 2));
     assert_eq!(Dialect::named("fanuc-turn"), Some(Dialect::FanucTurn));
+}
+
+/// The reader of a channel takes the dialect of its part program.
+#[test]
+fn a_channel_reads_its_dialect() {
+    let (source, start, modes) = (SourceId(0), Position::default(), "G91".to_owned());
+    let language = Language::new("fanuc-mill", false, &[]).unwrap();
+    let program = PartProgram { source, text: "O1\n#1=5\nG0 X#1\nX#1\nM30".into(), start, modes, language };
+    let steps: Vec<Step> = ngc_reader()(&program).map(|s| s.unwrap()).collect();
+    assert_eq!(ends(&steps), [[5.0, 0.0, 0.0], [10.0, 0.0, 0.0]]);
 }
