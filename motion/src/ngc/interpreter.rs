@@ -40,6 +40,8 @@ pub struct Interpreter {
     ended: bool,
     /// M99 in the main program ends it: errors are looked for, or one run is asked for.
     once: bool,
+    /// A `%` of a lenient program that ends it, or stands inside of it if a row follows.
+    stray: Option<Span>,
     /// Reads a Fanuc-style dialect in place of `flow`.
     fanuc: Option<Box<fanuc::Machine>>,
 }
@@ -97,6 +99,7 @@ impl Interpreter {
             percent: false,
             ended: false,
             once: options.drop_in,
+            stray: None,
             fanuc,
         }
     }
@@ -169,6 +172,10 @@ impl Interpreter {
 
     fn row(&mut self, row: &Row) {
         self.opened = true;
+        if let Some(span) = self.stray.take() {
+            let diag = Diag::new(Code::LeftOut, span, "`%` inside of the program").help("the program goes on behind it");
+            self.diags.push(diag);
+        }
         if row.deleted && self.state.options.skip_deleted {
             return;
         }
@@ -362,20 +369,15 @@ impl Interpreter {
             self.diags.push(Diag::new(Code::BadCharacter, span, "`%` inside of the program").help(help));
             return;
         }
-        if self.opened && self.state.options.language.lenient && !self.rest_is_blank(end) {
-            let span = Span::new(self.flow.files.source(), start, end);
-            let diag = Diag::new(Code::LeftOut, span, "`%` inside of the program").help("the program goes on behind it");
-            return self.diags.push(diag);
+        if self.opened && self.state.options.language.lenient {
+            self.stray = Some(Span::new(self.flow.files.source(), start, end));
+            return;
         }
         if self.opened {
             self.finish();
         }
         self.percent = true;
         self.opened = true;
-    }
-
-    fn rest_is_blank(&self, from: usize) -> bool {
-        self.flow.files.text_ref()[from..].bytes().all(|b| b.is_ascii_whitespace() || b == b'%')
     }
 
     fn end_of_text(&mut self) {
