@@ -44,6 +44,8 @@ pub struct Interpreter {
     ended: bool,
     /// M99 in the main program ends it: errors are looked for, or one run is asked for.
     once: bool,
+    /// A `%` of a lenient program that ends it, or stands inside of it if a row follows.
+    stray: Option<Span>,
     /// Reads a Fanuc-style dialect in place of `flow`.
     fanuc: Option<Box<fanuc::Machine>>,
 }
@@ -110,6 +112,7 @@ impl Interpreter {
             opened: false,
             percent: false,
             once: options.drop_in,
+            stray: None,
             fanuc,
         }
     }
@@ -202,6 +205,10 @@ impl Interpreter {
 
     fn row(&mut self, row: &Row) {
         self.opened = true;
+        if let Some(span) = self.stray.take() {
+            let diag = Diag::new(Code::LeftOut, span, "`%` inside of the program").help("the program goes on behind it");
+            self.diags.push(diag);
+        }
         if row.deleted && self.state.options.skip_deleted {
             return;
         }
@@ -398,29 +405,15 @@ impl Interpreter {
             self.diags.push(Diag::new(Code::BadCharacter, span, "`%` inside of the program").help(help));
             return;
         }
-        if self.opened && self.state.options.language.lenient && !self.rest_is_blank() {
-            let span = Span::new(self.flow.files.source(), start, end);
-            let diag = Diag::new(Code::LeftOut, span, "`%` inside of the program").help("the program goes on behind it");
-            return self.diags.push(diag);
+        if self.opened && self.state.options.language.lenient {
+            self.stray = Some(Span::new(self.flow.files.source(), start, end));
+            return;
         }
         if self.opened {
             self.finish();
         }
         self.percent = true;
         self.opened = true;
-    }
-
-    /// True if nothing but blank rows and `%` follows.
-    fn rest_is_blank(&mut self) -> bool {
-        let back = self.flow.files.spot();
-        let blank = loop {
-            let Ok(Some(piece)) = self.flow.files.next_piece() else { break true };
-            if !self.flow.files.bytes(piece.range).iter().all(|b| b.is_ascii_whitespace() || *b == b'%') {
-                break false;
-            }
-        };
-        self.flow.files.go(back);
-        blank
     }
 
     fn end_of_text(&mut self) {

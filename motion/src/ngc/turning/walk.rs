@@ -224,7 +224,8 @@ impl Walk {
         let mut rest = self.pieces[i];
         let first = ((from - base) / self.rough.increment - 1e-9).ceil().max(0.0);
         let count = (to - base) / self.rough.increment - first;
-        if count.is_nan() || count > PASSES_MAX as f64 || self.steps.len() > 5 * PASSES_MAX {
+        let work = count * self.pieces.len() as f64;
+        if work.is_nan() || count > PASSES_MAX as f64 || work > 5e7 || self.steps.len() > 5 * PASSES_MAX {
             return None;
         }
         let mut k = first;
