@@ -467,7 +467,13 @@ impl Interpreter {
 
     fn go_past_seen(&mut self) {
         if std::mem::take(&mut self.seen) {
-            self.queue.pop_front();
+            let moves = |s: &Step| matches!(s.command, Canon::StraightFeed(_) | Canon::StraightTraverse(_) | Canon::ArcFeed(_));
+            let owns_nothing = self.queue.front().is_some_and(moves);
+            let step = self.queue.pop_front();
+            if owns_nothing {
+                // There is nothing to free, and without the look at it the step need not be copied out of the queue.
+                std::mem::forget(step);
+            }
         }
     }
 
