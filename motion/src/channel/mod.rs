@@ -4,8 +4,12 @@
 
 pub mod aux;
 pub mod commands;
+pub mod io;
+pub mod modes;
 pub mod pulses;
+pub mod questions;
 pub mod state;
+pub mod typed;
 
 pub use state::{CncEvent, CncState};
 
@@ -16,8 +20,12 @@ use crate::feeder::{Command, Event};
 use crate::geometry::{AXES, Point};
 use crate::machine::config::ChannelConfig;
 use crate::segment::{Action, AuxCodes, ErrorNote, Mark, Planned};
+use crate::spindle::Spindle;
 use aux::Aux;
+use io::{Io, Waiting};
+use modes::{Modes, Panel};
 use pulses::PulseOutput;
+use questions::{Exchange, ProbeResult};
 use takt_base::Code;
 use takt_base::ring::{Rx, Tx};
 
@@ -37,6 +45,8 @@ enum Wait {
     Codes,
     /// Confirmation of M2 or M30.
     End,
+    /// M66.
+    Input(Waiting),
 }
 
 /// A load request and its end.
@@ -77,6 +87,25 @@ pub struct Channel {
     listened: bool,
     /// FaultID of CNC_AuxHandshake.
     fault_id: u16,
+    /// Inputs and outputs.
+    pub io: Io,
+    /// The simulated spindle.
+    pub spindle: Spindle,
+    exchange: Exchange,
+    probe: ProbeResult,
+    modes: Modes,
+    panel: Panel,
+    pressed: Result<(), Code>,
+    /// Those that the program was started with.
+    started: Modes,
+    /// One block is wanted.
+    step: bool,
+    /// The axes do not follow.
+    locked: bool,
+    /// One block or a subroutine runs, not the program.
+    typed: bool,
+    check: typed::Check,
+    returned: f64,
 }
 
 impl Channel {
@@ -106,6 +135,19 @@ impl Channel {
             part_count: 0,
             listened: false,
             fault_id: 0,
+            io: Io::default(),
+            spindle: Spindle::new(config.spindle_accel_rpm_s / 60.0),
+            exchange: Exchange::default(),
+            probe: ProbeResult::default(),
+            modes: Modes::default(),
+            panel: Panel::default(),
+            pressed: Ok(()),
+            started: Modes::default(),
+            step: false,
+            locked: false,
+            typed: false,
+            check: typed::Check::Idle,
+            returned: 0.0,
             config,
         }
     }
@@ -179,6 +221,8 @@ impl Channel {
     pub fn tick(&mut self, axes: &mut [Axis]) {
         self.take_events();
         self.watch(axes);
+        let at = self.position();
+        self.spindle.tick(self.dt, &at);
         if !self.joined {
             // Left-overs of an aborted run make room for the next. What comes while they go waits for the next tick.
             (0..self.link.steps.len()).map_while(|_| self.link.steps.pop()).for_each(drop);
@@ -186,7 +230,10 @@ impl Channel {
         }
         self.executor.fill(&mut self.link.steps, self.run);
         self.aux_tick();
+        self.look_at_probe(axes);
+        self.release_block();
         self.path_tick();
+        self.probed();
         self.drive(axes);
         self.rest_tick(axes);
     }
@@ -217,7 +264,8 @@ impl Channel {
                     self.load = Load::Failed { request, code };
                     self.error = Some(note);
                 }
-                _ => {}
+                (Event::NotStored(note), _) => self.error = Some(note),
+                (event, _) => self.take_typed(&event),
             }
         }
     }
@@ -249,11 +297,14 @@ impl Channel {
         if self.state != CncState::AuxWait {
             return;
         }
+        if let Wait::Input(waiting) = self.wait {
+            return self.input_tick(waiting);
+        }
         if self.aux.take_finished() {
             match (self.wait, self.hold) {
                 (Wait::End, _) => self.end_program(),
-                (Wait::Codes, false) => drop(self.event(CncEvent::Finished)),
-                (Wait::Codes, true) => drop(self.event(CncEvent::FinishedHeld)),
+                (_, false) => drop(self.event(CncEvent::Finished)),
+                (_, true) => drop(self.event(CncEvent::FinishedHeld)),
             }
         } else if self.aux.wait(self.dt, self.config.aux_timeout_s) {
             self.fail(ErrorNote::new(Code::AuxTimeout, self.mark.line, 1, Code::AuxTimeout.title()));
@@ -269,7 +320,7 @@ impl Channel {
         if !self.is_moving_state() {
             return;
         }
-        let demand = Demand { hold: self.state != CncState::Running, ..self.demand };
+        let demand = self.demand_now();
         let mut left = self.dt;
         if let Some(p) = &mut self.pulses {
             p.begin_tick(left);
@@ -282,9 +333,15 @@ impl Channel {
             }
             let reached = self.executor.advance(left, &demand);
             self.mark = self.executor.mark();
+            if self.executor.take_reversal() {
+                self.spindle.reverse();
+            }
             match reached {
                 Reached::Action(step, rest) if self.act(&step) => left = rest,
-                _ => {
+                reached => {
+                    if reached == Reached::Block {
+                        self.block_end();
+                    }
                     if let Some(p) = &mut self.pulses {
                         p.rest();
                     }
@@ -294,17 +351,49 @@ impl Channel {
         }
     }
 
+    fn demand_now(&self) -> Demand {
+        let still = if self.modes.feed_disable { 0.0 } else { 1.0 };
+        Demand {
+            feed: self.demand.feed * still,
+            rapid: self.demand.rapid * still,
+            hold: self.state != CncState::Running,
+            abort: matches!(self.state, CncState::Aborting | CncState::Fault),
+            adaptive: self.io.adaptive,
+            feed_hold: self.io.feed_hold,
+            contact: self.io.probe,
+            single: self.stops_at_blocks(),
+            spindle_rev: self.spindle.revolutions(),
+            spindle_rps: self.spindle.speed(),
+        }
+    }
+
     /// Does what the path has reached; true if the path goes on at once.
     fn act(&mut self, step: &Planned) -> bool {
         self.mark = step.mark;
         match &step.action {
             Action::Pulse(m) => self.pulses.as_mut().map(|p| p.start(m)).is_some(),
+            Action::Aux(_) | Action::Spindle(_) if self.modes.aux_lock => true,
+            Action::Spindle(command) => {
+                self.spindle.obey(*command);
+                true
+            }
+            Action::Switch(_, on) => {
+                self.spindle.use_override(*on);
+                true
+            }
+            Action::Output(output) => {
+                self.io.set(output);
+                true
+            }
+            Action::Write(variable, value) => self.write(variable, *value),
+            Action::Read(reads) => self.ask(reads),
+            Action::WaitInput(input) => self.wait_input(input),
             Action::Aux(codes) if !codes.wait || !self.listened => {
                 self.aux.note(*codes);
                 true
             }
             Action::Aux(codes) => self.wait_for(*codes, Wait::Codes),
-            Action::ProgramStop { optional: true } if !self.config.optional_stop => true,
+            Action::ProgramStop { optional: true } if !self.config.optional_stop && !self.modes.optional_stop => true,
             Action::ProgramStop { optional } => {
                 self.stop_code = Some(u16::from(*optional));
                 self.event(CncEvent::ProgramStop);
@@ -322,7 +411,7 @@ impl Channel {
                 self.fail(*note);
                 false
             }
-            Action::Move(_) | Action::Dwell(_) | Action::FeedOverride(_) => true,
+            Action::Move(_) | Action::Special(..) | Action::Dwell(_) | Action::FeedOverride(_) => true,
         }
     }
 
@@ -335,8 +424,14 @@ impl Channel {
 
     fn end_program(&mut self) {
         self.event(CncEvent::End);
-        self.part_count = self.part_count.saturating_add(1);
+        self.part_count = self.part_count.saturating_add(u32::from(!self.typed));
         self.history.end(self.command, Outcome::Done);
+        self.step = false;
+        // A full ring means that the feeder is behind; then it keeps what it had before.
+        let _ = self.link.commands.push(Command::Ended { run: self.run });
+        if self.program_id == 0 {
+            self.state = CncState::Idle;
+        }
     }
 
     fn fail(&mut self, note: ErrorNote) {
@@ -357,6 +452,9 @@ impl Channel {
     fn stop_feeding(&mut self) {
         self.aux.cancel();
         self.hold = false;
+        self.step = false;
+        self.spindle.stop();
+        self.forget_exchange();
         // A full ring means that the feeder is behind; the number of the next run makes what it still sends harmless.
         let _ = self.link.commands.push(Command::Abort);
     }
@@ -372,7 +470,7 @@ impl Channel {
                 self.event(CncEvent::AtRest);
                 self.release(axes);
             }
-            CncState::Ready | CncState::Fault => self.release(axes),
+            CncState::Idle | CncState::Ready | CncState::Fault => self.release(axes),
             _ => {}
         }
     }
@@ -396,6 +494,9 @@ impl Channel {
 
     /// Set positions of the axes.
     fn drive(&self, axes: &mut [Axis]) {
+        if self.locked {
+            return self.stand(axes);
+        }
         let position = self.position();
         for (p, axis) in position.iter().zip(self.map) {
             if let Some(axis) = axis.and_then(|i| axes.get_mut(i)) {

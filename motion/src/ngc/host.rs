@@ -1,5 +1,6 @@
 //! What the interpreter asks of its surroundings: files of subroutines, variables of the PLC program.
 
+use crate::plc::{PlcError, Variable};
 use std::sync::Arc;
 use takt_base::SourceId;
 
@@ -7,7 +8,11 @@ use takt_base::SourceId;
 pub trait Host: Send + Sync {
     /// The file of subroutine `name`, which has no path and no extension.
     fn open(&self, name: &str) -> Option<(SourceId, Arc<str>)>;
-    /// Value of a named parameter such as `_plc_speed` or `_ini[axis]max`.
+    /// The PLC variable of a path, which is what stands behind `_plc_`; `None`: there is no PLC program.
+    fn plc(&self, _path: &str) -> Option<Result<Variable, PlcError>> {
+        None
+    }
+    /// Value of a named parameter such as `_ini[axis]max`.
     fn value(&self, _name: &str) -> Option<f64> {
         None
     }
@@ -29,6 +34,10 @@ impl HostRef {
     /// See [`Host::open`].
     pub fn open(&self, name: &str) -> Option<(SourceId, Arc<str>)> {
         self.0.as_ref()?.open(name)
+    }
+    /// See [`Host::plc`].
+    pub fn plc(&self, path: &str) -> Option<Result<Variable, PlcError>> {
+        self.0.as_ref()?.plc(path)
     }
     /// See [`Host::value`].
     pub fn value(&self, name: &str) -> Option<f64> {

@@ -21,6 +21,7 @@ pub mod motion;
 mod number;
 pub mod options;
 pub mod oword;
+pub mod outside;
 pub mod param;
 pub mod reader;
 pub mod request;

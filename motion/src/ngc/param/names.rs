@@ -30,6 +30,7 @@ pub enum Kind {
 pub struct Names {
     map: HashMap<String, Name>,
     texts: Vec<String>,
+    outside: bool,
 }
 
 impl Names {
@@ -45,10 +46,16 @@ impl Names {
             None if lower.starts_with('_') => Kind::Global,
             None => Kind::Local,
         };
+        self.outside |= kind == Kind::Outside;
         let name = Name { id: self.texts.len() as u32, kind };
         self.texts.push(text.to_owned());
         self.map.insert(text.to_owned(), name);
         name
+    }
+
+    /// True if an outside name was ever read.
+    pub fn has_outside(&self) -> bool {
+        self.outside
     }
 
     /// A name that shows the state of the interpreter.
