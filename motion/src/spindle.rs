@@ -114,7 +114,7 @@ impl Spindle {
         let wanted = if sense == 0.0 { 0.0 } else { sense * share * self.command.speed.at(position) };
         let before = self.speed;
         let step = self.acceleration * dt;
-        self.speed = if (wanted - before).abs() <= step { wanted } else { before + step.copysign(wanted - before) };
+        self.speed = if (wanted - before).abs() <= step * (1.0 + 1e-9) { wanted } else { before + step.copysign(wanted - before) };
         self.revolutions += 0.5 * (before + self.speed) * dt;
     }
 
@@ -166,11 +166,12 @@ mod tests {
             spindle.tick(0.001, &p);
             assert!((spindle.speed() * 60.0 - rpm).abs() < 1e-5, "{x}: {}", spindle.speed() * 60.0);
         }
+        let axis = [10.0, 0.0, 0.0, 0.0, 0.0, 0.0];
         spindle.set_override(0.5);
-        spindle.tick(0.001, &ORIGIN);
+        spindle.tick(0.001, &axis);
         assert!((spindle.speed() * 60.0 - 1000.0).abs() < 1e-9);
         spindle.use_override(false);
-        spindle.tick(0.001, &ORIGIN);
+        spindle.tick(0.001, &axis);
         assert!((spindle.speed() * 60.0 - 2000.0).abs() < 1e-9);
     }
 }

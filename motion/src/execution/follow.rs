@@ -52,7 +52,7 @@ impl Follow {
     /// Speed for the next `dt` seconds that leads to `target`, which itself moves at `v_target`, without passing it.
     fn towards(&self, error: f64, v_target: f64, accel: f64, dt: f64) -> f64 {
         let lag = error - v_target * dt;
-        let limit = v_target + (2.0 * accel * lag.abs()).sqrt().copysign(lag);
+        let limit = v_target + stoppable(lag.abs(), accel, dt).copysign(lag);
         let exact = error / dt;
         let wanted = if (exact - v_target).abs() < (limit - v_target).abs() { exact } else { limit };
         wanted.clamp(self.v - accel * dt, self.v + accel * dt)
@@ -104,29 +104,39 @@ impl PathExecutor {
         let turned = f.sense * demand.spindle_rev - f.origin;
         let target = f.pitch * turned.max(0.0);
         let v_target = if turned > 0.0 { f.pitch * f.sense * demand.spindle_rps } else { 0.0 };
+        // What is left is so short that one more period at this speed ends it, at rest within the next.
+        let last = |rest: f64| rest.abs() <= accel * dt * dt && (rest / dt - f.v).abs() <= accel * dt;
+        let length = c.segment.path.length;
         f.v = match f.stage {
             _ if demand.abort => {
                 f.stopped = f.v.abs() <= accel * dt;
                 if f.stopped { 0.0 } else { f.v - (accel * dt).copysign(f.v) }
             }
+            Stage::Out if last(-c.s) => {
+                self.tap_done(&c.segment);
+                return 0.0;
+            }
             Stage::Out => f.towards(-c.s, 0.0, accel, dt),
+            Stage::Thread if !self.goes_on() && last(length - c.s) => {
+                self.thread_done();
+                return 0.0;
+            }
             Stage::Thread if !self.goes_on() => {
-                let rest = c.segment.path.length - c.s;
+                let rest = length - c.s;
                 f.towards(target - c.s, v_target, accel, dt).min(stoppable(rest, accel, dt))
             }
             Stage::Thread | Stage::Down | Stage::Up => f.towards(target - c.s, v_target, accel, dt),
         };
-        self.advance_following(f, c, dt, demand);
+        self.advance_following(f, c, dt);
         0.0
     }
 
-    fn advance_following(&mut self, mut f: Follow, mut c: Current, dt: f64, demand: &Demand) {
+    fn advance_following(&mut self, mut f: Follow, mut c: Current, dt: f64) {
         c.s += f.v * dt;
         let length = c.segment.path.length;
-        let near = 2.0 * c.segment.accel * dt * dt;
         match f.stage {
-            Stage::Thread if c.s >= length - near && (c.s >= length || f.v <= 2.0 * c.segment.accel * dt) => {
-                return self.thread_done(f, length);
+            Stage::Thread if c.s >= length && self.goes_on() => {
+                return self.next_thread(Follow { origin: f.origin + length / f.pitch, ..f }, c.s - length);
             }
             Stage::Down if c.s >= length => {
                 f.stage = Stage::Up;
@@ -136,33 +146,31 @@ impl PathExecutor {
                 f.stage = Stage::Out;
                 self.reversal = true;
             }
-            Stage::Out if c.s.abs() <= near && f.v.abs() <= 2.0 * c.segment.accel * dt && !demand.abort => {
-                return self.tap_done(&c.segment);
-            }
             _ => {}
         }
         self.position = beyond(&c.segment.path, c.s);
         (self.follow, self.current) = (Some(f), Some(c));
     }
 
-    /// The end of a thread; what goes on with it takes its phase along.
-    fn thread_done(&mut self, f: Follow, length: f64) {
-        self.follow = self.goes_on().then(|| Follow { origin: f.origin + length / f.pitch, ..f });
-        if self.follow.is_some() {
-            // `next` begins the rest of the chain, which finds the state here.
-            self.finish();
-            let rest = self.queue.front().map(|s| s.action);
-            if let Some(Action::Special(segment, Special::Thread { pitch, .. })) = rest {
-                if let Some(step) = self.queue.pop_front() {
-                    self.count(step.mark);
-                }
-                self.start(segment);
-                self.follow = self.follow.map(|f| Follow { pitch, ..f });
-            }
-            return;
-        }
+    fn thread_done(&mut self) {
+        self.follow = None;
         self.pace = Pace::Plan;
         self.finish();
+    }
+
+    /// The thread goes on with the next one, in phase, `s` mm behind its start.
+    fn next_thread(&mut self, f: Follow, s: f64) {
+        self.finish();
+        let Some(Planned { action: Action::Special(segment, Special::Thread { pitch, .. }), mark, .. }) = self.queue.pop_front()
+        else {
+            return;
+        };
+        self.count(mark);
+        // The revolutions behind the joint count with the new pitch.
+        let s = s * pitch / f.pitch;
+        self.current = Some(Current { segment, tau: 0.0, s });
+        self.position = beyond(&segment.path, s);
+        self.follow = Some(Follow { pitch, ..f });
     }
 
     fn tap_done(&mut self, segment: &Segment) {

@@ -470,7 +470,8 @@ impl PathExecutor {
         } else {
             0.0
         };
-        if a >= phase.a && w <= cap && meets(w * w, phase.v2(c.s)) {
+        // Where a ramp met the plan, rounding may have left the speed a hair above the cap.
+        if a >= phase.a && w <= cap * (1.0 + 1e-9) && meets(w * w, phase.v2(c.s)) {
             self.back_to_plan();
             return left;
         }

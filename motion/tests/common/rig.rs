@@ -225,6 +225,9 @@ impl Rig {
     pub fn get_u16(&self, fb: &Fb, pin: &str) -> u16 {
         u16::from_le_bytes(self.bytes(fb, pin))
     }
+    pub fn get_i64(&self, fb: &Fb, pin: &str) -> i64 {
+        i64::from_le_bytes(self.bytes(fb, pin))
+    }
     pub fn get_u32(&self, fb: &Fb, pin: &str) -> u32 {
         u32::from_le_bytes(self.bytes(fb, pin))
     }
