@@ -88,7 +88,7 @@ impl Channel {
         self.joined = true;
         self.started = self.modes;
         self.locked = self.modes.machine_lock;
-        self.step = false;
+        (self.step, self.kept_back) = (false, false);
         self.hold = false;
         self.error = None;
         self.fault_id = 0;
@@ -127,12 +127,15 @@ impl Channel {
 
     /// CNC_Resume.
     pub fn resume(&mut self) -> Result<(), Code> {
+        let between = matches!(self.state, CncState::StepStop | CncState::ProgStop);
         if !self.event(CncEvent::Resume) {
             return Err(Code::ChannelState);
         }
         self.hold = false;
         self.stop_code = None;
-        self.executor.go_on();
+        if between {
+            self.executor.go_on();
+        }
         Ok(())
     }
 

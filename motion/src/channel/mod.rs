@@ -100,6 +100,8 @@ pub struct Channel {
     started: Modes,
     /// One block is wanted.
     step: bool,
+    /// The next block is kept back.
+    kept_back: bool,
     /// The axes do not follow.
     locked: bool,
     /// One block or a subroutine runs, not the program.
@@ -144,6 +146,7 @@ impl Channel {
             pressed: Ok(()),
             started: Modes::default(),
             step: false,
+            kept_back: false,
             locked: false,
             typed: false,
             check: typed::Check::Idle,

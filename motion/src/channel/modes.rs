@@ -99,12 +99,15 @@ impl Channel {
         if self.modes.single_block || self.step {
             self.step = false;
             self.event(CncEvent::BlockEnd);
+        } else {
+            self.kept_back = true;
         }
     }
 
     /// Nothing keeps the next block back any more.
     pub(super) fn release_block(&mut self) {
-        if self.state == CncState::Running && !self.stops_at_blocks() {
+        if self.kept_back && !self.stops_at_blocks() {
+            self.kept_back = false;
             self.executor.go_on();
         }
     }
