@@ -85,6 +85,14 @@ impl<I: Index, T> FromIterator<T> for IndexVec<I, T> {
     }
 }
 
+impl<I, T> IntoIterator for IndexVec<I, T> {
+    type Item = T;
+    type IntoIter = std::vec::IntoIter<T>;
+    fn into_iter(self) -> Self::IntoIter {
+        self.items.into_iter()
+    }
+}
+
 impl<I: Index, T> std::ops::Index<I> for IndexVec<I, T> {
     type Output = T;
     fn index(&self, i: I) -> &T {

@@ -130,13 +130,18 @@ impl Source {
     /// Line and column of a byte offset; an offset past the end counts as the end.
     pub fn line_col(&self, offset: u32) -> LineCol {
         let offset = (offset as usize).min(self.text.len());
-        let line = self.line_starts.partition_point(|&s| s as usize <= offset);
-        let start = self.line_starts[line - 1] as usize;
+        let line = self.line_number(offset as u32);
+        let start = self.line_start(line);
         let mut cut = offset;
         while !self.text.is_char_boundary(cut) {
             cut -= 1;
         }
-        LineCol { line: line as u32, column: self.text[start..cut].chars().count() as u32 + 1 }
+        LineCol { line, column: self.text[start..cut].chars().count() as u32 + 1 }
+    }
+
+    /// Line (from 1) of a byte offset; an offset past the end counts as the end.
+    pub fn line_number(&self, offset: u32) -> u32 {
+        self.line_starts.partition_point(|&s| s <= offset) as u32
     }
 
     /// Byte offset at which a line (from 1) begins; the end of the text if there is no such line.

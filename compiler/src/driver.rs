@@ -56,6 +56,7 @@ pub fn compile(project: Project) -> Compilation {
     let mut hir = hir::build(&files, &sources, &mut sink);
     syntax::silence::apply(&files, &mut sink);
     set_interval(&mut hir, &files, project.interval);
+    drop(files); // the lowering uses their memory again
     compilation(hir, sources, project, sink)
 }
 
@@ -65,6 +66,7 @@ pub fn compile_tests(project: Project) -> (Compilation, Vec<hir::Test>) {
     let files = parse(&sources, &mut sink);
     let (hir, tests) = hir::build_tests(&files, &sources, &mut sink);
     syntax::silence::apply(&files, &mut sink);
+    drop(files);
     (compilation(hir, sources, project, sink), tests)
 }
 

@@ -36,7 +36,7 @@ pub struct Tally {
 
 /// Compiles the program of a seed and runs `scans` scans, 10 ms apart.
 pub fn run(seed: u64, scans: i64) -> Outcome {
-    let result = catch_unwind(AssertUnwindSafe(|| run_text(&program(seed, Shape::default()), scans)));
+    let result = catch_unwind(AssertUnwindSafe(|| run_text(&program(seed, Shape::of(seed)), scans)));
     result.unwrap_or_else(|why| Outcome::Broken(message(&*why)))
 }
 

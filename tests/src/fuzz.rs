@@ -48,6 +48,6 @@ pub fn seed(bytes: &[u8]) {
     number[..length].copy_from_slice(&bytes[..length]);
     let seed = u64::from_le_bytes(number);
     if let Outcome::Refused(why) | Outcome::Broken(why) = run(seed, 3) {
-        panic!("seed {seed}: {why}\n{}", program(seed, Shape::default()));
+        panic!("seed {seed}: {why}\n{}", program(seed, Shape::of(seed)));
     }
 }

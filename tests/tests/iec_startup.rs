@@ -125,6 +125,32 @@ fn s4_4_fb_init_of_bases_members_and_structures() {
     check(text, 2, &[("log", "'iibdiiiiibd'"), ("p.d.v", "70"), ("p.e.v", "8")]);
 }
 
+/// TwinCAT writes arguments without names: the parameters of the type's own FB_init in order. They may be variables, references and THIS.
+#[test]
+fn s4_4_arguments_without_names() {
+    let text = format!(
+        "{NODE} FUNCTION_BLOCK Lamp VAR_INPUT on : BOOL; END_VAR END_FUNCTION_BLOCK
+        FUNCTION_BLOCK Switch VAR lamp : REFERENCE TO Lamp; level : INT; END_VAR
+          METHOD FB_init : BOOL VAR_INPUT bInitRetains, bInCopyCode : BOOL; l : REFERENCE TO Lamp; level : INT; END_VAR
+            THIS^.lamp REF= l; THIS^.level := level; END_METHOD
+          lamp.on := TRUE;
+        END_FUNCTION_BLOCK
+        PROGRAM p VAR k : INT := 7; x : node(1); y : node(k, 3); w : ARRAY[1..2] OF node[(6), (7, 0)]; z : ARRAY[1..2] OF node(k + 1);
+          lamp : Lamp; switch : Switch(lamp, 100); END_VAR
+          switch(); END_PROGRAM"
+    );
+    let want = [
+        ("p.x.n", "17"),
+        ("p.y.n", "78"),
+        ("p.w[1].n", "67"),
+        ("p.w[2].n", "75"),
+        ("p.z[2].n", "87"),
+        ("p.lamp.on", "TRUE"),
+        ("p.switch.level", "100"),
+    ];
+    check(&text, 1, &want);
+}
+
 #[test]
 fn s4_4_wrong_arguments_of_fb_init() {
     let with = |decl: &str| errors(Profile::Codesys, &format!("{NODE} PROGRAM p VAR {decl} END_VAR ; END_PROGRAM"));
@@ -133,6 +159,9 @@ fn s4_4_wrong_arguments_of_fb_init() {
     assert_eq!(with("x : node(a := 'text');"), [Code::TypeMismatch]);
     assert_eq!(with("x : ARRAY[1..3] OF node[(a := 1)];"), [Code::BadInitializer]);
     assert_eq!(with("x : node(a := 1) := (n := 4);"), []);
+    assert_eq!(with("x : node(1, 2, 3);"), [Code::WrongArgumentCount]);
+    assert_eq!(with("x : TON(TRUE);"), [Code::BadInitializer]);
+    assert_eq!(errors(Profile::Std, "PROGRAM p VAR x : TON(TRUE); END_VAR ; END_PROGRAM"), [Code::VendorForm]);
 }
 
 /// In profile `std` FB_init is a method like any other, and says so.

@@ -2,7 +2,7 @@
 
 use takt_base::{Code, Profile, Severity};
 use takt_tests::cases::{Row, reject, run};
-use takt_tests::plc::compile_in;
+use takt_tests::plc::{check_profile, compile_in};
 
 const ASSIGNMENTS: &[Row] = &[
     (
@@ -220,4 +220,46 @@ fn s12_forms_that_std_refuses() {
             ("12", "PROGRAM p VAR i : INT; END_VAR i := (1 := 2); END_PROGRAM", "P2014"),
         ],
     );
+}
+
+/// A call or a property that gives a REFERENCE TO stands for what that is bound to; properties are found through references.
+#[test]
+fn references_as_results() {
+    let text = "TYPE Pair : STRUCT a, b : INT; END_STRUCT END_TYPE
+        FUNCTION_BLOCK Lamp VAR lit : INT := 3; END_VAR
+          PROPERTY Level : INT GET Level := lit; END_GET SET lit := Level; END_SET END_PROPERTY
+          METHOD dim : INT VAR_INPUT less : INT; END_VAR lit := lit - less; dim := lit; END_METHOD
+        END_FUNCTION_BLOCK
+        FUNCTION_BLOCK Shelf VAR pair : Pair := (a := 1, b := 2); lamp : Lamp; list : ARRAY[0..2] OF INT := [10, 20, 30]; END_VAR
+          METHOD pairs : REFERENCE TO Pair VAR_INPUT add : INT; END_VAR pair.a := pair.a + add; pairs REF= pair; END_METHOD
+          METHOD item : REFERENCE TO INT VAR_INPUT i : INT; END_VAR item REF= list[i]; END_METHOD
+          METHOD light : REFERENCE TO Lamp light REF= lamp; END_METHOD
+          PROPERTY Whole : REFERENCE TO Pair GET Whole REF= pair; END_GET END_PROPERTY
+        END_FUNCTION_BLOCK
+        FUNCTION_BLOCK Holder VAR bulb : REFERENCE TO Lamp; ptr : POINTER TO Lamp; END_VAR
+          METHOD give VAR_INPUT l : REFERENCE TO Lamp; END_VAR bulb REF= l; ptr := ADR(l); END_METHOD
+          METHOD swap : INT swap := THIS^.bulb.Level; THIS^.bulb.Level := 7; ptr^.Level := ptr^.Level + 1; END_METHOD
+        END_FUNCTION_BLOCK
+        PROGRAM main VAR s : Shelf; h : Holder; other : Lamp; r : REFERENCE TO Pair; n : REFERENCE TO INT; p : Pair;
+          old, x, y, z, d, w, lit : INT; END_VAR
+        r REF= s.pairs(4); r.b := 9; p := s.pairs(1); x := s.pairs(0).a;
+        n REF= s.item(1); n := n + 1; y := s.item(1) + s.item(2);
+        s.item(0) := 5; z := s.item(0);
+        h.give(other); old := h.swap(); lit := other.Level;
+        d := s.light().dim(1); w := s.Whole.b; s.Whole.b := w + 1;
+        END_PROGRAM";
+    let expected = [
+        ("main.p.a", "6"),
+        ("main.p.b", "9"),
+        ("main.x", "6"),
+        ("main.y", "51"),
+        ("main.z", "5"),
+        ("main.old", "3"),
+        ("main.lit", "8"),
+        ("main.d", "2"),
+        ("main.w", "9"),
+        ("main.s.pair.b", "10"),
+        ("main.s.list[1]", "21"),
+    ];
+    check_profile(Profile::Codesys, text, 1, &expected);
 }

@@ -73,7 +73,7 @@ pub(super) fn addresses<'t>(body: &'t [ast::Stmt], on: &mut dyn FnMut(&'t ast::A
                 todo.extend(arms.iter().flat_map(|a| &a.body).chain(otherwise.iter().flatten()));
             }
             StmtKind::For { variable, from, to, by, body } => {
-                exprs.extend([variable, from, to].into_iter().chain(by));
+                exprs.extend([variable, from, to].into_iter().chain(by).map(|e| &**e));
                 todo.extend(body);
             }
             StmtKind::While { condition: e, body } | StmtKind::Repeat { body, until: e } => {

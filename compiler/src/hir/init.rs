@@ -37,6 +37,13 @@ impl Builder<'_> {
                 None => self.bad_initial(*span, used.ty, "a list"),
             },
             Init::Struct(list, span) => self.initial_record(list, used, *span),
+            Init::Positional(_, span) if !self.profile(*span).is_codesys() => Const::Zero, // reported by the parser
+            Init::Positional(_, span) => {
+                let help = "without FB_init the values need names: (input := value)";
+                let label = format!("values without names, {} wanted", self.show(used.ty));
+                self.report(Diag::new(Code::BadInitializer, *span, label).help(help));
+                Const::Zero
+            }
         }
     }
 

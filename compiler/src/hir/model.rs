@@ -276,9 +276,8 @@ pub enum StmtKind {
     /// All of the variable's elementary type (of a subrange its base). A step of zero traps (ForStep) when it is not constant. Trip count as in language reference §5.6.
     For {
         variable: Place,
-        from: Expr,
-        to: Expr,
-        by: Expr,
+        /// From, to, by.
+        values: Box<[Expr; 3]>,
         body: Vec<Stmt>,
     },
     While {

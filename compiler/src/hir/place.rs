@@ -137,6 +137,9 @@ impl Builder<'_> {
                 if let Some(full) = self.qualified(e).filter(|n| self.global_id(n).is_some()) {
                     return self.variable(&full);
                 }
+                if self.gives_reference(e) {
+                    return self.computed_place(e.span, |b| b.property_read(e).unwrap_or_else(|| b.bad(e.span)));
+                }
                 let full = self.qualified(base).filter(|n| self.named_program(n).is_some());
                 let base = match full {
                     Some(full) => self.variable(&full)?,
@@ -150,10 +153,10 @@ impl Builder<'_> {
                 let base = self.place(base)?;
                 self.part(base, *size, *index, e.span)
             }
+            ast::ExprKind::Call { callee, args } => self.computed_place(e.span, |b| b.call(callee, args, e.span, None)),
             ast::ExprKind::Error => None,
             _ => {
-                let help = "assign the value to a variable first";
-                self.report(Diag::new(Code::NotAVariable, e.span, "a value without a place").help(help));
+                self.no_place(e.span);
                 None
             }
         }

@@ -128,6 +128,38 @@ impl Builder<'_> {
         target
     }
 
+    /// The result of a call that is a REFERENCE TO stands for what it is bound to.
+    pub(super) fn through_reference(&mut self, o: Operand) -> Operand {
+        if !matches!(self.pointee(o.expr.ty), Some((_, PointerKind::Reference))) {
+            return o;
+        }
+        let span = o.expr.span;
+        let Some(target) = self.follow(o.expr, span) else { return self.bad(span) };
+        let ty = target.place.ty;
+        Operand::fixed(Expr { kind: ExprKind::Load(target.place), ty, span })
+    }
+
+    /// A call, or a property, that gives a REFERENCE TO, as the place that holds it.
+    pub(super) fn computed_place(&mut self, span: Span, value: impl FnOnce(&mut Self) -> Operand) -> Option<Target> {
+        let place_only = std::mem::take(&mut self.place_only);
+        let o = value(self);
+        self.place_only = place_only;
+        if self.is_bad(&o) {
+            return None;
+        }
+        if !matches!(self.pointee(o.expr.ty), Some((_, PointerKind::Reference))) {
+            self.no_place(span);
+            return None;
+        }
+        let place = Place { ty: o.expr.ty, span, base: Base::Value(Box::new(o.expr)), path: Vec::new() };
+        Some(Target { place, access: Access::Write })
+    }
+
+    pub(super) fn no_place(&mut self, span: Span) {
+        let help = "assign the value to a variable first";
+        self.report(Diag::new(Code::NotAVariable, span, "a value without a place").help(help));
+    }
+
     /// `REF(v)`.
     pub(super) fn ref_of(&mut self, e: &ast::Expr, span: Span) -> Operand {
         let Some(place) = self.referable(e) else { return self.bad(span) };

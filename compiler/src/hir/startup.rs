@@ -251,8 +251,8 @@ impl Builder<'_> {
         let mut body = std::mem::replace(&mut setup.body, outer);
         for (variable, bound) in counters.into_iter().zip(bounds).rev() {
             let constant = |v: i32| constant_expr(Const::Int(v.into()), dint, span);
-            let (from, to, by) = (constant(bound.low), constant(bound.high), constant(1));
-            body = vec![Stmt { kind: StmtKind::For { variable, from, to, by, body }, span }];
+            let values = Box::new([constant(bound.low), constant(bound.high), constant(1)]);
+            body = vec![Stmt { kind: StmtKind::For { variable, values, body }, span }];
         }
         setup.body.extend(body);
     }

@@ -43,7 +43,7 @@ impl Builder<'_> {
             }
             ast::StmtKind::Case { selector, arms, otherwise } => self.case(selector, arms, otherwise.as_deref())?,
             ast::StmtKind::For { variable, from, to, by, body } => {
-                self.for_loop(variable, from, to, by.as_ref(), body, s.span)?
+                self.for_loop(variable, from, to, by.as_deref(), body, s.span)?
             }
             ast::StmtKind::While { condition, body } => {
                 let condition = self.condition(condition);
@@ -132,7 +132,7 @@ impl Builder<'_> {
         self.scope.controls.extend(own);
         let body = self.loop_body(body);
         self.scope.controls.truncate(self.scope.controls.len() - own.iter().count());
-        Some(StmtKind::For { variable: place, from, to, by, body })
+        Some(StmtKind::For { variable: place, values: Box::new([from, to, by]), body })
     }
 
     /// The control variable and the type to count in.

@@ -39,7 +39,7 @@ pub fn verify(module: &Module) -> Vec<Problem> {
     let mut problems = Vec::new();
     check_module(module, &mut problems);
     for function in module.functions.iter() {
-        Verifier { module, function, place: function.name.clone(), problems: &mut problems }.function();
+        Verifier { module, function, place: Place::Function, problems: &mut problems }.function();
     }
     problems
 }
@@ -84,10 +84,18 @@ pub fn native_result(native: &NativeImport) -> Option<Scalar> {
     }
 }
 
+/// What is looked at; its text is made only for a problem.
+#[derive(Clone, Copy)]
+enum Place {
+    Function,
+    Inst(BlockId, usize),
+    End(BlockId),
+}
+
 struct Verifier<'a> {
     module: &'a Module,
     function: &'a Function,
-    place: String,
+    place: Place,
     problems: &'a mut Vec<Problem>,
 }
 
@@ -104,11 +112,11 @@ impl Verifier<'_> {
         self.check(!f.blocks.is_empty(), || "no blocks".into());
         for (id, block) in f.blocks.enumerate() {
             for (i, inst) in block.insts.iter().enumerate() {
-                self.place = format!("{} b{} #{i}", f.name, id.0);
+                self.place = Place::Inst(id, i);
                 self.line(inst.line);
                 self.op(&inst.op);
             }
-            self.place = format!("{} b{}", f.name, id.0);
+            self.place = Place::End(id);
             self.line(block.end_line);
             self.end(&block.end);
         }
@@ -116,7 +124,16 @@ impl Verifier<'_> {
 
     fn check(&mut self, holds: bool, text: impl FnOnce() -> String) {
         if !holds {
-            self.problems.push(Problem { place: self.place.clone(), text: text() });
+            self.problems.push(Problem { place: self.place(), text: text() });
+        }
+    }
+
+    fn place(&self) -> String {
+        let name = &self.function.name;
+        match self.place {
+            Place::Function => name.clone(),
+            Place::Inst(block, i) => format!("{name} b{} #{i}", block.0),
+            Place::End(block) => format!("{name} b{}", block.0),
         }
     }
 

@@ -349,6 +349,8 @@ pub enum Init {
     Array(Vec<ArrayInit>, Span),
     /// `(a := 1, b := [1, 2])`
     Struct(Vec<(Name, Init)>, Span),
+    /// `(1, a)` behind the type of an instance (vendor).
+    Positional(Vec<Expr>, Span),
 }
 
 /// An element of an array initial value.
@@ -364,7 +366,7 @@ impl Init {
     pub fn span(&self) -> Span {
         match self {
             Init::Expr(e) => e.span,
-            Init::Array(_, s) | Init::Struct(_, s) => *s,
+            Init::Array(_, s) | Init::Struct(_, s) | Init::Positional(_, s) => *s,
         }
     }
 }
@@ -412,10 +414,10 @@ pub enum StmtKind {
         otherwise: Option<Vec<Stmt>>,
     },
     For {
-        variable: Expr,
-        from: Expr,
-        to: Expr,
-        by: Option<Expr>,
+        variable: Box<Expr>,
+        from: Box<Expr>,
+        to: Box<Expr>,
+        by: Option<Box<Expr>>,
         body: Vec<Stmt>,
     },
     While {

@@ -61,8 +61,8 @@ fn statement<'a>(stmt: &'a Stmt, on: &mut dyn FnMut(Event<'a>)) {
             arms.iter().for_each(|(_, body)| walk(body, on));
             walk(otherwise, on);
         }
-        StmtKind::For { variable, from, to, by, body } => {
-            [from, to, by].into_iter().for_each(|e| expression(e, on));
+        StmtKind::For { variable, values, body } => {
+            values.iter().for_each(|e| expression(e, on));
             write(variable, None, on);
             on(Event::Loop);
             on(Event::Read(variable));

@@ -26,7 +26,7 @@ impl Builder<'_> {
     fn operand_kind(&mut self, e: &ast::Expr, want: Option<TypeId>) -> Operand {
         match &e.kind {
             ast::ExprKind::Name(_) | ast::ExprKind::Member(..) if self.may_be_property(e) => match self.property_read(e) {
-                Some(o) => o,
+                Some(o) => self.through_reference(o),
                 None => self.plain_operand(e, want),
             },
             _ => self.plain_operand(e, want),
@@ -47,7 +47,10 @@ impl Builder<'_> {
             ast::ExprKind::Null => self.null(e.span, want),
             ast::ExprKind::Unary(op, a) => self.unary(*op, a, e.span, want),
             ast::ExprKind::Binary(op, a, b) => self.binary(*op, a, b, e.span, want),
-            ast::ExprKind::Call { callee, args } => self.call(callee, args, e.span, want),
+            ast::ExprKind::Call { callee, args } => {
+                let o = self.call(callee, args, e.span, want);
+                self.through_reference(o)
+            }
             ast::ExprKind::Assign { target, value } => self.assigned(target, value, e.span),
             ast::ExprKind::Error => self.bad(e.span),
         }

@@ -60,8 +60,13 @@ impl Builder<'_> {
             if self.is_bad(&o) {
                 return Some(None);
             }
-            let ty = self.type_unit(o.expr.ty).filter(|_| matches!(self.ty(o.expr.ty), Type::Reference { .. }))?;
-            return Some(Some(Object { receiver: Receiver::Reference(o.expr), ty, dynamic: true, is_super: false }));
+            let ty = self.type_unit(o.expr.ty)?;
+            let receiver = match (self.ty(o.expr.ty), o.expr.kind) {
+                (Type::Reference { .. }, kind) => Receiver::Reference(Expr { kind, ..o.expr }),
+                (_, ExprKind::Load(place)) => Receiver::Place(place),
+                _ => return None,
+            };
+            return Some(Some(Object { receiver, ty, dynamic: true, is_super: false }));
         }
         let Some(target) = self.place(base) else { return Some(None) };
         let place = target.place;

@@ -31,15 +31,16 @@ impl Builder<'_> {
     /// The calls for one instance.
     pub(in crate::hir) fn initialiser_calls(&mut self, id: PouId, place: &Place, arguments: Option<&ast::Init>) -> Vec<Stmt> {
         let list = self.initialisers(id);
-        let given = self.named_arguments(arguments);
+        let given = self.named_arguments(&list, arguments);
         self.check_names(&list, &given);
         list.into_iter().filter_map(|method| self.initialiser_call(method, place, &given)).collect()
     }
 
-    fn named_arguments(&mut self, arguments: Option<&ast::Init>) -> Vec<(ast::Name, ast::Expr)> {
+    fn named_arguments(&mut self, methods: &[PouId], arguments: Option<&ast::Init>) -> Vec<(ast::Name, ast::Expr)> {
         let list = match arguments {
             None => return Vec::new(),
             Some(ast::Init::Struct(list, _)) => list,
+            Some(ast::Init::Positional(list, span)) => return self.positional_arguments(methods, list, *span),
             Some(other) => {
                 self.error(Code::BadInitializer, other.span(), "FB_init takes arguments with names: (a := 1)");
                 return Vec::new();
@@ -53,6 +54,18 @@ impl Builder<'_> {
             }
         }
         given
+    }
+
+    /// `(1, a)`: the parameters of the last FB_init, that of the type itself, in order.
+    fn positional_arguments(&mut self, methods: &[PouId], list: &[ast::Expr], span: Span) -> Vec<(ast::Name, ast::Expr)> {
+        let params =
+            methods.last().map(|m| &self.hir.pous[*m]).into_iter().flat_map(|p| p.params.iter().map(|v| &p.vars[*v].name));
+        let names: Vec<String> = params.filter(|n| !GIVEN.iter().any(|g| n.eq_ignore_ascii_case(g))).cloned().collect();
+        if list.len() > names.len() {
+            let label = format!("{} given, FB_init takes {} here", list.len(), names.len());
+            self.error(Code::WrongArgumentCount, span, label);
+        }
+        names.into_iter().zip(list).map(|(text, e)| (ast::Name { text, span: e.span }, e.clone())).collect()
     }
 
     /// Reports arguments that no FB_init of the type has.

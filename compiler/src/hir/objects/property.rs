@@ -4,9 +4,11 @@ use super::call::Object;
 use crate::hir::builder::Builder;
 use crate::hir::convert::Operand;
 use crate::hir::model::*;
+use crate::hir::scope::Local;
 use crate::syntax::ast::{self, Accessor, ExprKind as E, Name};
 use takt_base::{Code, Diag, Span};
-use takt_image::types::{Section, Type};
+use takt_image::TypeId;
+use takt_image::types::{PointerKind, Section, Type};
 
 impl Builder<'_> {
     /// Cheap test before anything is looked up.
@@ -43,8 +45,16 @@ impl Builder<'_> {
         self.type_unit(ty)
     }
 
-    fn static_type(&self, e: &ast::Expr) -> Option<takt_image::TypeId> {
-        use crate::hir::scope::Local;
+    /// The type of what stands there; of a REFERENCE TO, that of what it is bound to.
+    fn static_type(&self, e: &ast::Expr) -> Option<TypeId> {
+        let mut ty = self.raw_type(e)?;
+        while let Some((target, PointerKind::Reference)) = self.pointee(ty) {
+            ty = target;
+        }
+        Some(ty)
+    }
+
+    fn raw_type(&self, e: &ast::Expr) -> Option<TypeId> {
         match &e.kind {
             E::Name(n) => match self.local(&n.key()) {
                 Some(Local::Var(v)) => Some(self.hir.pous[self.scope.pou?].vars[v].ty),
@@ -64,6 +74,10 @@ impl Builder<'_> {
                 }
                 self.getter_type(self.type_unit(ty)?, n)
             }
+            E::Deref(base) => {
+                let ty = self.static_type(base)?;
+                Some(self.pointee(ty).map_or(ty, |(target, _)| target))
+            }
             E::Index(base, _) => match self.ty(self.static_type(base)?) {
                 Type::Array { element, .. } => Some(*element),
                 _ => None,
@@ -72,9 +86,15 @@ impl Builder<'_> {
         }
     }
 
-    fn getter_type(&self, ty: PouId, n: &Name) -> Option<takt_image::TypeId> {
+    fn getter_type(&self, ty: PouId, n: &Name) -> Option<TypeId> {
         let pou = &self.hir.pous[self.find_accessor(ty, n, Accessor::Get)?];
         Some(pou.vars[pou.result?].ty)
+    }
+
+    /// True for a property whose value is a REFERENCE TO.
+    pub(in crate::hir) fn gives_reference(&self, e: &ast::Expr) -> bool {
+        let of_reference = |ty: TypeId| matches!(self.pointee(ty), Some((_, PointerKind::Reference)));
+        self.may_be_property(e) && self.property_of(e).is_some() && self.raw_type(e).is_some_and(of_reference)
     }
 
     /// The property as a value; `None` if the expression is something else.
@@ -128,7 +148,7 @@ impl Builder<'_> {
     }
 
     /// A method or property where a variable is wanted; true if that was reported.
-    pub(in crate::hir) fn method_without_call(&mut self, ty: takt_image::TypeId, name: &Name) -> bool {
+    pub(in crate::hir) fn method_without_call(&mut self, ty: TypeId, name: &Name) -> bool {
         let Some(unit) = self.type_unit(ty) else { return false };
         if self.find_method(unit, &name.key()).is_some() {
             let help = format!("call it: {}()", name.text);

@@ -203,7 +203,7 @@ impl Builder {
         let mut numbers = vec![BlockId(0); self.blocks.len()];
         let kept = self.blocks.indices().filter(|b| reached[b.index()]);
         kept.enumerate().for_each(|(i, b)| numbers[b.index()] = BlockId::new(i));
-        let drafts = self.blocks.iter().zip(&reached).filter(|(_, r)| **r);
+        let drafts = self.blocks.into_iter().zip(&reached).filter(|(_, r)| **r);
         let blocks = drafts.map(|(draft, _)| close(draft, &numbers)).collect();
         let frame = u32::try_from(self.frame_max.next_multiple_of(8)).unwrap_or(u32::MAX);
         (Function { name, pou, params, result, locals: self.locals, frame, blocks }, self.regions)
@@ -223,9 +223,9 @@ impl Builder {
     }
 }
 
-fn close(draft: &Draft, numbers: &[BlockId]) -> Block {
-    let (end, end_line) = draft.end.clone().expect("a reachable block has an end");
-    Block { insts: draft.insts.clone(), end: retarget(end, |b| numbers[b.index()]), end_line }
+fn close(draft: Draft, numbers: &[BlockId]) -> Block {
+    let (end, end_line) = draft.end.expect("a reachable block has an end");
+    Block { insts: draft.insts, end: retarget(end, |b| numbers[b.index()]), end_line }
 }
 
 /// `addr + bytes`.

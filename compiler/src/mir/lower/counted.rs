@@ -51,21 +51,21 @@ impl Unit<'_, '_> {
     }
 
     /// FOR statement: `values` are FROM, TO and BY.
-    pub fn for_loop(&mut self, variable: &Place, values: [&Expr; 3], body: &[Stmt]) {
+    pub fn for_loop(&mut self, variable: &Place, values: &[Expr; 3], body: &[Stmt]) {
         let line = self.f.line;
         let e = self.hir.elementary(variable.ty).expect("a FOR variable is an integer");
         let steady = self.steady(variable, body);
         let loc = self.place(variable);
-        let [from, to, by] = values.map(|v| self.held(v));
-        let direction = self.direction(values[2], by, e);
+        let [from, to, by] = values.each_ref().map(|v| self.held(v));
+        let direction = self.direction(&values[2], by, e);
         let register = steady.map(|var| match loc {
             Loc::Register(l) => l,
             _ => *self.counter_registers.entry(var).or_insert_with(|| self.f.local(self.f.ty(from))),
         });
-        let range = self.range(values[0], values[1], direction);
+        let range = self.range(&values[0], &values[1], direction);
         let count = Count { variable: loc, ty: variable.ty, e, range, register, to, by, direction };
         let (inside, step, done) = (self.f.block(), self.f.block(), self.f.block());
-        self.set(&count, from, self.interval(values[0]));
+        self.set(&count, from, self.interval(&values[0]));
         let beyond = self.passed(&count, from);
         self.f.branch(beyond, done, inside);
         self.f.enter(inside);

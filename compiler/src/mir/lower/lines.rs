@@ -2,6 +2,7 @@
 
 use crate::mir::model::{Line, LineId};
 use std::collections::HashMap;
+use std::ops::Range;
 use takt_base::index::IndexVec;
 use takt_base::{SourceId, Sources, Span};
 
@@ -14,20 +15,31 @@ pub struct Lines<'a> {
     pub files: Vec<String>,
     known_lines: HashMap<Line, LineId>,
     known_files: HashMap<SourceId, u32>,
+    /// The line asked for last, whole: the next span is mostly on it.
+    last: Option<(SourceId, Range<usize>, LineId)>,
 }
 
 impl<'a> Lines<'a> {
     /// None yet.
     pub fn new(sources: &'a Sources) -> Self {
         let (lines, files) = (IndexVec::new(), Vec::new());
-        Self { sources, lines, files, known_lines: HashMap::new(), known_files: HashMap::new() }
+        Self { sources, lines, files, known_lines: HashMap::new(), known_files: HashMap::new(), last: None }
     }
 
     /// The line on which a span begins.
     pub fn of(&mut self, span: Span) -> LineId {
-        let file = self.file(span.source);
-        let line = Line { file, line: self.sources.line_col(span.source, span.start).line };
-        *self.known_lines.entry(line).or_insert_with(|| self.lines.push(line))
+        if let Some((source, whole, id)) = &self.last
+            && *source == span.source
+            && whole.contains(&(span.start as usize))
+        {
+            return *id;
+        }
+        let source = self.sources.get(span.source);
+        let line = Line { file: self.file(span.source), line: source.line_number(span.start) };
+        let id = *self.known_lines.entry(line).or_insert_with(|| self.lines.push(line));
+        let whole = source.line_start(line.line)..source.line_start(line.line + 1);
+        self.last = Some((span.source, whole, id));
+        id
     }
 
     fn file(&mut self, source: SourceId) -> u32 {

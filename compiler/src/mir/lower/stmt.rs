@@ -35,7 +35,7 @@ impl Unit<'_, '_> {
             StmtKind::Call(e) => self.call_statement(e),
             StmtKind::If { branches, otherwise } => self.if_statement(branches, otherwise),
             StmtKind::Case { selector, arms, otherwise } => self.case(selector, arms, otherwise),
-            StmtKind::For { variable, from, to, by, body } => self.for_loop(variable, [from, to, by], body),
+            StmtKind::For { variable, values, body } => self.for_loop(variable, values, body),
             StmtKind::While { condition, body } => self.while_loop(condition, body),
             StmtKind::Repeat { body, until } => self.repeat_loop(body, until),
             StmtKind::Exit => self.leave_loop(|ends| ends.exit),

@@ -44,9 +44,9 @@ fn statement<'a>(stmt: &'a Stmt, on: &mut dyn FnMut(Event<'a>)) {
             arms.iter().for_each(|(_, body)| statements(body, on));
             statements(otherwise, on);
         }
-        StmtKind::For { variable, from, to, by, body } => {
+        StmtKind::For { variable, values, body } => {
             write(variable, on);
-            [from, to, by].iter().for_each(|e| expression(e, on));
+            values.iter().for_each(|e| expression(e, on));
             statements(body, on);
         }
         StmtKind::While { condition, body } | StmtKind::Repeat { body, until: condition } => {

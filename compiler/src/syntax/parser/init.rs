@@ -44,12 +44,39 @@ impl Parser<'_> {
         next == Tok::RParen || next == Tok::Word && self.nth(2).kind == Tok::Assign
     }
 
+    /// What stands behind the type of an instance, or of an array of them.
+    pub(super) fn arguments_of_instance(&mut self) -> Init {
+        match self.kind() {
+            Tok::LBracket => self.list(|p| ArrayInit::One(p.arguments_of_one())),
+            _ => self.arguments_of_one(),
+        }
+    }
+
+    fn arguments_of_one(&mut self) -> Init {
+        if !self.at(Tok::LParen) || self.is_struct_init() {
+            return self.init();
+        }
+        let start = self.here();
+        self.bump();
+        let mut list = vec![self.expr()];
+        while !self.lost && self.eat(Tok::Comma) {
+            list.push(self.expr());
+        }
+        self.closing(Tok::RParen, ")", start);
+        Init::Positional(list, self.since(start))
+    }
+
     fn array_init(&mut self) -> Init {
+        self.list(Self::array_element)
+    }
+
+    /// `[element, element]`.
+    fn list(&mut self, element: impl Fn(&mut Self) -> ArrayInit) -> Init {
         let start = self.here();
         self.bump();
         let mut list = Vec::new();
         while !self.at(Tok::RBracket) && !self.lost {
-            list.push(self.array_element());
+            list.push(element(self));
             if !self.eat(Tok::Comma) {
                 break;
             }

@@ -110,10 +110,10 @@ impl Parser<'_> {
         let opener = self.here();
         self.bump();
         self.open.push(Kw::EndFor);
-        let variable = self.variable();
-        let from = self.for_start();
-        let to = self.for_bound(opener);
-        let by = if !self.lost && self.eat_kw(Kw::By) { Some(self.expr()) } else { None };
+        let variable = Box::new(self.variable());
+        let from = Box::new(self.for_start());
+        let to = Box::new(self.for_bound(opener));
+        let by = if !self.lost && self.eat_kw(Kw::By) { Some(Box::new(self.expr())) } else { None };
         self.expect_part(Kw::Do, opener, "FOR");
         let body = self.statements(false);
         self.close(Kw::EndFor, opener, "FOR", None);

@@ -171,14 +171,31 @@ impl Parser<'_> {
         if !self.at(Tok::LParen) {
             return TypeRefKind::Named(name);
         }
-        if self.nth(1).kind == Tok::RParen && !token.kw.is_type() {
+        if !token.kw.is_type() && !self.is_range() {
             return TypeRefKind::Named(name); // arguments of an instance
         }
         let is_list = self.nth(1).kind == Tok::Word && matches!(self.nth(2).kind, Tok::Assign | Tok::Comma | Tok::RParen);
         match is_list {
-            true if token.kw.is_type() => self.enumeration(Some(name)),
-            true => TypeRefKind::Named(name), // arguments of an instance
+            true => self.enumeration(Some(name)),
             false => self.subrange(name),
+        }
+    }
+
+    /// True if `..` stands in the parentheses that open here.
+    fn is_range(&self) -> bool {
+        let (mut n, mut depth) = (0, 0i32);
+        loop {
+            match self.nth(n).kind {
+                Tok::Range if depth == 1 => return true,
+                Tok::LParen | Tok::LBracket => depth += 1,
+                Tok::RParen | Tok::RBracket => depth -= 1,
+                Tok::Semi | Tok::Eof => return false,
+                _ => {}
+            }
+            if depth == 0 {
+                return false;
+            }
+            n += 1;
         }
     }
 

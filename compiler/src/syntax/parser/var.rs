@@ -166,8 +166,8 @@ impl Parser<'_> {
         Some(VarDecl { names, at, relative, ty, edge, arguments, init, span: self.since(start) })
     }
 
-    /// `(a := 1)` behind a type (vendor): arguments of FB_init, or initial values of the inputs of an instance; `[(a := 1), (a := 2)]`
-    /// behind an array of them.
+    /// `(a := 1)`, `(1)` behind a type (vendor): arguments of FB_init, or initial values of the inputs of an instance;
+    /// `[(a := 1), (a := 2)]` behind an array of them.
     fn instance_arguments(&mut self, ty: &TypeRef) -> Option<Init> {
         let wanted = match &ty.kind {
             TypeRefKind::Named(_) => self.at(Tok::LParen),
@@ -180,7 +180,7 @@ impl Parser<'_> {
             return None;
         }
         self.codesys_form("an instance with arguments");
-        Some(self.init())
+        Some(self.arguments_of_instance())
     }
 
     fn names(&mut self) -> Option<Vec<Name>> {

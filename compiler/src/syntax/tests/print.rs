@@ -125,6 +125,7 @@ fn init(i: &Init) -> String {
     match i {
         Init::Expr(e) => expr(e),
         Init::Array(items, _) => format!("[{}]", all(items, array_init)),
+        Init::Positional(items, _) => format!("({})", all(items, expr)),
         Init::Struct(items, _) => format!("{{{}}}", all(items, |(n, i)| format!("{}={}", n.text, init(i)))),
     }
 }
