@@ -353,14 +353,7 @@ impl Feeder {
         }
     }
 
-    fn load(
-        &mut self,
-        request: u32,
-        name: &[u8; NAME_BYTES],
-        start: &Point,
-        environment: &Environment,
-        reader: &Reader,
-    ) {
+    fn load(&mut self, request: u32, name: &[u8; NAME_BYTES], start: &Point, environment: &Environment, reader: &Reader) {
         let event = match self.read(text_of(name), start, environment, reader) {
             Ok((program, lines)) => {
                 self.program = Some(program);

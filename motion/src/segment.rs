@@ -3,8 +3,8 @@
 
 use crate::canon::{Input, Step};
 use crate::geometry::Path;
-use crate::profile::Profile;
 use crate::plc::Variable;
+use crate::profile::Profile;
 use crate::pulse::PulseMove;
 use crate::run::outputs::Output;
 use crate::spindle::SpindleCommand;

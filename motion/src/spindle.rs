@@ -114,7 +114,8 @@ impl Spindle {
         let wanted = if sense == 0.0 { 0.0 } else { sense * share * self.command.speed.at(position) };
         let before = self.speed;
         let step = self.acceleration * dt;
-        self.speed = if (wanted - before).abs() <= step * (1.0 + 1e-9) { wanted } else { before + step.copysign(wanted - before) };
+        self.speed =
+            if (wanted - before).abs() <= step * (1.0 + 1e-9) { wanted } else { before + step.copysign(wanted - before) };
         self.revolutions += 0.5 * (before + self.speed) * dt;
     }
 

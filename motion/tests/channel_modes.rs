@@ -296,7 +296,12 @@ fn block_search_collects_codes() {
         rig.call(&aux);
         let strobes = rig.get(&aux, "Mf") || rig.get(&aux, "Tf") || rig.get(&aux, "Sf");
         if strobes && !before {
-            codes.push((rig.get_u16(&aux, "MCode"), rig.get_lreal(&aux, "SCode"), rig.get_u32(&aux, "TCode"), rig.axis(0).floor()));
+            codes.push((
+                rig.get_u16(&aux, "MCode"),
+                rig.get_lreal(&aux, "SCode"),
+                rig.get_u32(&aux, "TCode"),
+                rig.axis(0).floor(),
+            ));
         }
         before = strobes;
         rig.set(&aux, "Fin", strobes);
@@ -329,7 +334,9 @@ fn block_search_for_a_line_that_does_not_come() {
 fn blocks_typed_in() {
     let mut rig = shop(&three_axes(plain()), &disk(&[]));
     let mdi = rig.fb("CNC_MDI");
-    for (block, want) in [("G91 F6000", 0.0), ("G1 X5", 5.0), ("X5", 10.0), ("G90 G20", 10.0), ("X1", 25.4), ("#<_plc_v0> = #<_x>", 25.4)] {
+    for (block, want) in
+        [("G91 F6000", 0.0), ("G1 X5", 5.0), ("X5", 10.0), ("G90 G20", 10.0), ("X1", 25.4), ("#<_plc_v0> = #<_x>", 25.4)]
+    {
         rig.text(&mdi, "Block", block);
         rig.set(&mdi, "Execute", true);
         rig.until(&[&mdi], &mdi, "Done", 1000);

@@ -50,6 +50,7 @@ fn probing_finds_the_edge() {
     assert!(v[2] < v[0] && v[2] > v[0] - 0.05, "{v:?}");
     assert!((v[3] + 5.0).abs() < 0.03, "{v:?}");
     assert!((v[4] + 5.0 / 25.4).abs() < 0.03 / 25.4, "{v:?}");
+    assert!(rig.machine.report().path_deviation_max_mm < 0.05);
     assert_eq!(rig.axis(2), -1.0);
 }
 

@@ -31,8 +31,7 @@ block! {
 
 fn call(core: &mut Core, f: &mut Frame) {
     let busy = f.bool(P::Busy);
-    let action =
-        Action { start, poll: |core, channel, request| Progress::of(core.channels[channel].check_outcome(request)) };
+    let action = Action { start, poll: |core, channel, request| Progress::of(core.channels[channel].check_outcome(request)) };
     let channel = rules::execute_channel(core, f, &execute_pins!(P), P::Cnc, &action);
     if busy
         && !f.bool(P::Busy)

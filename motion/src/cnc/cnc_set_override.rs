@@ -20,7 +20,11 @@ block! {
 
 fn call(core: &mut Core, f: &mut Frame) {
     let result = rules::channel(core, f.reference(P::Cnc)).and_then(|i| {
-        if f.bool(P::Enable) { core.channels[i].set_override(f.lreal(P::Feed), f.lreal(P::Rapid), f.lreal(P::Spindle)) } else { Ok(()) }
+        if f.bool(P::Enable) {
+            core.channels[i].set_override(f.lreal(P::Feed), f.lreal(P::Rapid), f.lreal(P::Spindle))
+        } else {
+            Ok(())
+        }
     });
     rules::enable(f, &enable_pins!(P, Enabled), result);
 }

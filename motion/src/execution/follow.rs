@@ -44,6 +44,11 @@ impl Follow {
         self.v
     }
 
+    /// Not a thread.
+    pub fn is_tap(&self) -> bool {
+        self.stage != Stage::Thread
+    }
+
     /// An abort has braked it to rest.
     pub fn is_stopped(&self) -> bool {
         self.stopped
@@ -102,8 +107,9 @@ impl PathExecutor {
         };
         let accel = c.segment.accel;
         let turned = f.sense * demand.spindle_rev - f.origin;
-        let target = f.pitch * turned.max(0.0);
-        let v_target = if turned > 0.0 { f.pitch * f.sense * demand.spindle_rps } else { 0.0 };
+        // Before the mark it waits; on the way out it follows the spindle beyond the start.
+        let moves = turned > 0.0 || f.stage == Stage::Up;
+        let (target, v_target) = if moves { (f.pitch * turned, f.pitch * f.sense * demand.spindle_rps) } else { (0.0, 0.0) };
         // What is left is so short that one more period at this speed ends it, at rest within the next.
         let last = |rest: f64| rest.abs() <= accel * dt * dt && (rest / dt - f.v).abs() <= accel * dt;
         let length = c.segment.path.length;
@@ -184,10 +190,7 @@ impl PathExecutor {
 
     /// The next item goes on with this thread.
     fn goes_on(&self) -> bool {
-        matches!(
-            self.queue.front(),
-            Some(Planned { action: Action::Special(_, Special::Thread { starts: false, .. }), .. })
-        )
+        matches!(self.queue.front(), Some(Planned { action: Action::Special(_, Special::Thread { starts: false, .. }), .. }))
     }
 }
 

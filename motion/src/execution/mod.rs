@@ -232,8 +232,12 @@ impl PathExecutor {
         self.current.as_ref().map_or(0.0, |c| (c.segment.path.length - c.s).max(0.0))
     }
 
-    /// Distance of a point from the path at and behind the current position, in mm; infinite without a path.
+    /// Distance of a point from the path at and behind the current position, in mm; infinite without a path, and
+    /// in rigid tapping, which goes as far as the spindle takes it.
     pub fn deviation(&self, p: &Point) -> f64 {
+        if self.follow.as_ref().is_some_and(Follow::is_tap) {
+            return f64::INFINITY;
+        }
         let current = self.current.as_ref().map(|c| &c.segment);
         let newest_first = (1..=HISTORY).map_while(|k| self.history[(self.history_next + HISTORY - k) % HISTORY].as_ref());
         let (mut nearest, mut behind) = (f64::INFINITY, 0.0);
@@ -417,9 +421,13 @@ impl PathExecutor {
             if !c.segment.rapid {
                 self.feed_mm += c.segment.path.length;
             }
-            self.history[self.history_next] = Some(c.segment);
-            self.history_next = (self.history_next + 1) % HISTORY;
+            self.remember(c.segment);
         }
+    }
+
+    fn remember(&mut self, segment: Segment) {
+        self.history[self.history_next] = Some(segment);
+        self.history_next = (self.history_next + 1) % HISTORY;
     }
 
     /// Uses up to `left` seconds on the current element, not above `cap` mm/s; returns what is left.

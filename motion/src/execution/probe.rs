@@ -4,7 +4,7 @@
 
 use super::{Current, Demand, Pace, PathExecutor};
 use crate::canon::Probe;
-use crate::geometry::Point;
+use crate::geometry::{Path, Point};
 use crate::segment::Segment;
 
 /// A probe move under way.
@@ -67,15 +67,17 @@ impl PathExecutor {
 
     /// The path stands behind a trip, or the move is at its end.
     pub(super) fn end_probe(&mut self) {
-        let Some(probe) = &mut self.probe else { return };
+        let Some(mut probe) = self.probe else { return };
         let stands = probe.trip.is_some() && self.pace == Pace::Free(0.0);
-        if stands
-            && let Some(Current { segment, s, .. }) = self.current.take() {
+        if stands && let Some(Current { segment, s, .. }) = self.current.take() {
             self.position = segment.path.at(s);
             self.feed_mm += s;
+            // What was executed is the part up to here; it ended at rest.
+            self.remember(Segment { path: Path::line(segment.path.start, self.position), ..segment });
         }
         if self.current.is_none() {
             probe.done = true;
+            self.probe = Some(probe);
             self.primed = false;
         }
     }

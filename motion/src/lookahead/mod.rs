@@ -207,7 +207,10 @@ impl Planner {
                 let profile = trapezoid(length, v_in, v_out, p.limits.v, a, a);
                 let feed = if p.m.rapid { p.limits.v } else { p.m.feed };
                 self.v_released = v_out;
-                self.emit(p.mark, Action::Move(Segment { path: p.m.path, profile, accel: a, feed, rapid: p.m.rapid, per_rev: p.m.per_rev }));
+                self.emit(
+                    p.mark,
+                    Action::Move(Segment { path: p.m.path, profile, accel: a, feed, rapid: p.m.rapid, per_rev: p.m.per_rev }),
+                );
                 self.release_notes();
             }
             None => {}
@@ -251,7 +254,10 @@ mod tests {
         let mut at = [0.0; 6];
         for &(x, y, feed) in moves {
             let end = [x, y, 0., 0., 0., 0.];
-            planner.push_move(Mark::default(), Move { path: Path::line(at, end), feed, rapid: false, exact_stop: false, per_rev: 0.0 });
+            planner.push_move(
+                Mark::default(),
+                Move { path: Path::line(at, end), feed, rapid: false, exact_stop: false, per_rev: 0.0 },
+            );
             at = end;
         }
         planner.flush();

@@ -124,7 +124,8 @@ impl Interpreter {
     /// The same with the modes of `modal`, from the position where the machine stands: for a block that is typed in.
     pub fn going_on(mut self, modal: &Modal) -> Self {
         let machine = self.state.modal.machine(self.state.modal.position);
-        let now = Modal { side: None, position: Position::default(), tool_in_spindle: self.state.modal.tool_in_spindle, ..*modal };
+        let now =
+            Modal { side: None, position: Position::default(), tool_in_spindle: self.state.modal.tool_in_spindle, ..*modal };
         self.state.modal = now;
         self.state.modal.position = scaled(now.offsets.program(machine), 1.0 / self.state.unit());
         self.reopen();

@@ -79,4 +79,3 @@ fn m_code(command: &Canon) -> Option<u16> {
         _ => return None,
     })
 }
-

@@ -120,10 +120,8 @@ mod tests {
     /// Spans meet: order 3 with 5 points has knots 0 0 0 1 2 3 3 3.
     #[test]
     fn spans_meet() {
-        let nurbs = Nurbs {
-            order: 3,
-            points: vec![[0.0, 0.0, 1.0], [1.0, 2.0, 0.5], [3.0, 2.0, 2.0], [4.0, 0.0, 1.0], [6.0, 1.0, 1.0]],
-        };
+        let nurbs =
+            Nurbs { order: 3, points: vec![[0.0, 0.0, 1.0], [1.0, 2.0, 0.5], [3.0, 2.0, 2.0], [4.0, 0.0, 1.0], [6.0, 1.0, 1.0]] };
         for t in [1.0, 2.0] {
             let (left, right) = (point(&nurbs, t, t as usize - 1), point(&nurbs, t, t as usize));
             assert!((left[0] - right[0]).abs() < 1e-12 && (left[1] - right[1]).abs() < 1e-12, "{left:?} {right:?}");

@@ -113,7 +113,10 @@ impl RunReader {
         let nearest = if low <= x0 && x0 <= high { 0.0 } else { (low - x0).abs().min((high - x0).abs()) };
         let rps = command.speed.at_radius(nearest);
         if command.direction == 0 || rps.is_nan() || rps <= 0.0 {
-            return Err(RunError { code: Code::SpindleStopped, text: "the spindle does not turn: write S and M3 before it".to_owned() });
+            return Err(RunError {
+                code: Code::SpindleStopped,
+                text: "the spindle does not turn: write S and M3 before it".to_owned(),
+            });
         }
         Ok(rps)
     }

@@ -64,11 +64,7 @@ pub fn environment(disk: &Disk) -> Environment {
         writing.lock().unwrap().insert(name.to_owned(), text.to_owned());
         Ok(())
     };
-    Environment {
-        files: Arc::new(Box::new(files)),
-        save: Some(Arc::new(Box::new(save))),
-        symbols: Some(Arc::new(Table)),
-    }
+    Environment { files: Arc::new(Box::new(files)), save: Some(Arc::new(Box::new(save))), symbols: Some(Arc::new(Table)) }
 }
 
 /// A powered machine.

@@ -3,8 +3,8 @@
 use super::{check_feed, need, target};
 use crate::canon::{Canon, Position, Probe};
 use crate::ngc::execute::{Done, Run};
-use crate::ngc::outside::Awaits;
 use crate::ngc::modal::{FeedMode, Motion, minus, mm_per_unit};
+use crate::ngc::outside::Awaits;
 use crate::ngc::request::{AXES, not_now};
 
 /// First parameter of the tripped position, and the one that says whether the probe tripped.
