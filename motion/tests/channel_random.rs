@@ -10,6 +10,7 @@ use takt_motion::machine::ChannelConfig;
 const PROGRAM: &str = "\
 G21 G90 F6000 S1200 M3
 G1 X20 Y5
+M1
 X21 Y5.2
 X22 Y5.5
 G2 X30 Y5 R12
@@ -108,8 +109,8 @@ fn life(seed: u64, ticks: usize) -> Vec<(CncState, [f64; 3])> {
 #[test]
 fn random_operators() {
     let mut states = [false; CncState::ALL.len()];
-    for seed in 1..=60 {
-        life(seed, 4000).iter().for_each(|(state, _)| states[*state as usize] = true);
+    for seed in 1..=40 {
+        life(seed, 6000).iter().for_each(|(state, _)| states[*state as usize] = true);
     }
     use CncState as S;
     for state in [S::Ready, S::Running, S::Holding, S::Held, S::AuxWait, S::StepStop, S::ProgStop, S::Aborting, S::Fault] {
