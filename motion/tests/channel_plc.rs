@@ -226,3 +226,35 @@ fn tables_that_fail() {
     let (code, text) = rig.error().expect("an error");
     assert_eq!((code, text.starts_with("mill.tbl")), (Code::TableFile, true));
 }
+
+/// The same program in real time, with the background in a thread of its own: the same answers and end, whenever they come.
+#[test]
+fn questions_in_real_time() {
+    let text = "F6000\nG1 X5\n#1 = #<_plc_level>\no1 while [#<_plc_v0> LT 3]\nG1 X[#1 + #<_plc_v0>]\n#<_plc_v0> = [#<_plc_v0> + 1]\n\
+        M66 P1 L0\no1 endwhile\nM2\n";
+    let config = three_axes(plain());
+    let machine = takt_motion::Machine::with_environment(
+        &config,
+        common::shop::environment(&disk(&[("a.ngc", text)])),
+        takt_motion::feeder::ngc_reader(),
+        takt_motion::Background::Thread,
+    );
+    let mut rig = Rig::on(&config, machine);
+    rig.power_on();
+    rig.set_real(LEVEL, 10.0);
+    let (load, run) = (rig.fb("CNC_LoadProgram"), rig.fb("CNC_Run"));
+    rig.text(&load, "FileName", "a.ngc");
+    rig.set(&load, "Execute", true);
+    for _ in 0..60_000 {
+        rig.run(&[&load, &run], 1);
+        let ready = rig.get(&load, "Done");
+        rig.set(&run, "Execute", ready);
+        if rig.get(&run, "Done") || rig.get(&run, "Error") {
+            break;
+        }
+        std::thread::sleep(std::time::Duration::from_micros(100));
+    }
+    assert!(rig.get(&run, "Done"), "{:?}", rig.error());
+    assert_eq!([rig.axis(0), rig.real(V)], [12.0, 3.0]);
+    assert_eq!(rig.machine.report().channels[0].late_ticks, 0);
+}

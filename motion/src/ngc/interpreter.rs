@@ -163,7 +163,7 @@ impl Interpreter {
         let before = self.queue.len();
         if let Some(word) = &row.oword {
             self.comments(row);
-            let back = self.flow.files.spot();
+            let back = (self.flow.files.spot(), self.flow.here());
             match self.flow.obey(word, &mut self.state, &mut self.stack) {
                 Ok(After::Returned) => self.returned(row),
                 Ok(After::Next) => {}

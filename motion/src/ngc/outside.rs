@@ -9,6 +9,7 @@ use super::expr::{Op, Slice, Value};
 use super::fault::Fault;
 use super::flow::files::Spot;
 use super::interpreter::Interpreter;
+use super::lines::Place;
 use super::modal::{Modal, scaled};
 use super::oword::Label;
 use super::param::{Kind, LAST, Name};
@@ -168,7 +169,7 @@ impl Interpreter {
     }
 
     /// Behind an O word that failed: true if it lacked PLC variables. They are asked for, and the row comes again.
-    pub(super) fn asks_again(&mut self, row: &Row, back: Spot) -> bool {
+    pub(super) fn asks_again(&mut self, row: &Row, (spot, here): (Spot, Place)) -> bool {
         let missing = std::mem::take(&mut *self.state.outside.missing.borrow_mut());
         let known = self.state.outside.values.iter().map(|(name, _)| name.clone());
         let mut names: Vec<_> = known.map(|name| (name, row.place)).collect();
@@ -176,7 +177,7 @@ impl Interpreter {
         if missing.is_empty() || self.check_reads(&names).is_err() {
             return false;
         }
-        self.flow.files.go(back);
+        self.flow.back_to(spot, here);
         let quiet = Row { comments: Slice::default(), ..*row };
         self.ask(&quiet, names.into_iter().map(|(name, _)| name).collect());
         true
