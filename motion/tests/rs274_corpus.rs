@@ -3,18 +3,7 @@
 
 mod common;
 
-use common::oracle::{Folder, installed, ours, same_rows, theirs};
-use std::path::Path;
-
-/// Programs of a corpus file; see its first row.
-fn programs(text: &str) -> Vec<String> {
-    let rows = text.lines().filter(|r| !r.starts_with(";;") && !r.is_empty());
-    rows.map(|r| r.replace("\\n", "\n") + "\nM2\n").collect()
-}
-
-fn known(text: &str) -> Vec<String> {
-    programs(text)
-}
+use common::oracle::{Folder, corpus, installed, ours, programs, same_rows, theirs};
 
 /// The first difference of a program, or nothing.
 fn difference(program: &str, folder: &Folder) -> Option<String> {
@@ -35,17 +24,9 @@ fn corpus_gives_the_same_calls() {
     if !installed() {
         return;
     }
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/corpus");
-    let differs = known(include_str!("corpus_differs.txt"));
+    let differs = programs(include_str!("corpus_differs.txt"));
     let (mut equal, mut total, mut wrong) = (0, 0, Vec::new());
-    let mut files: Vec<_> = std::fs::read_dir(folder).unwrap().map(|f| f.unwrap().path()).collect();
-    files.sort();
-    let filter = std::env::var("TAKT_CORPUS").unwrap_or_default();
-    let programs: Vec<String> = files
-        .iter()
-        .filter(|f| f.display().to_string().contains(&filter))
-        .flat_map(|f| programs(&std::fs::read_to_string(f).unwrap()))
-        .collect();
+    let programs = corpus();
     let halves: Vec<Vec<(String, Option<String>)>> = std::thread::scope(|scope| {
         let work = |part: usize| {
             let programs = &programs;

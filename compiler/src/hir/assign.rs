@@ -2,7 +2,8 @@
 
 use super::builder::Builder;
 use super::model::*;
-use super::place::{Access, Target, ends_in_part};
+use super::part::ends_in_part;
+use super::place::{Access, Target};
 use crate::syntax::ast;
 use takt_base::{Code, Diag, Severity, Span};
 use takt_image::TypeId;

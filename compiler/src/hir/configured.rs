@@ -8,7 +8,7 @@ use super::model::*;
 use super::types::TypeUse;
 use crate::syntax::ast;
 use std::collections::{HashMap, HashSet};
-use takt_base::{Code, Diag, Span};
+use takt_base::{Code, Diag, Severity, Span};
 use takt_image::image::Place as ImagePlace;
 use takt_image::types::Type;
 use takt_image::{TypeId, TypeTable};
@@ -335,5 +335,7 @@ impl<'g> OpenCheck<'g> {
 
 fn left_open(b: &mut Builder, span: Span, path: &str) {
     let help = format!("give it one: VAR_CONFIG {path} AT %QX0.0 : BOOL; END_VAR in the CONFIGURATION");
-    b.report(Diag::new(Code::AddressLeftOpen, span, format!("`{path}` has no address")).help(help));
+    let diag = Diag::new(Code::AddressLeftOpen, span, format!("`{path}` has no address")).help(help);
+    // Programs are moved from TwinCAT, where the system manager keeps the addresses: there the variable is in no image.
+    b.report(if b.profile(span).is_codesys() { diag.severity(Severity::Warning) } else { diag });
 }

@@ -29,6 +29,7 @@ mod late;
 mod lattice;
 pub mod model;
 mod objects;
+mod part;
 mod place;
 mod pointer;
 mod program;

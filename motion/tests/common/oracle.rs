@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use takt_base::SourceId;
-use takt_motion::canon::{MotionMode, Units};
+use takt_motion::canon::{MotionMode, Step, Units};
 use takt_motion::ngc::{Interpreter, Options, Style, tool};
 use takt_motion::print::rs274::Listing;
 
@@ -38,6 +38,22 @@ pub fn installed() -> bool {
     found
 }
 
+/// Programs of a corpus file; see its first row.
+pub fn programs(text: &str) -> Vec<String> {
+    let rows = text.lines().filter(|r| !r.starts_with(";;") && !r.is_empty());
+    rows.map(|r| r.replace("\\n", "\n") + "\nM2\n").collect()
+}
+
+/// All programs of the corpus, or of those of its files whose name contains TAKT_CORPUS.
+pub fn corpus() -> Vec<String> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/corpus");
+    let mut files: Vec<_> = std::fs::read_dir(folder).unwrap().map(|f| f.unwrap().path()).collect();
+    files.sort();
+    let filter = std::env::var("TAKT_CORPUS").unwrap_or_default();
+    let chosen = files.iter().filter(|f| f.display().to_string().contains(&filter));
+    chosen.flat_map(|f| programs(&std::fs::read_to_string(f).unwrap())).collect()
+}
+
 /// Calls of `rs274 -g`, and whether it ended well.
 pub fn theirs(text: &str, folder: &Path) -> (Vec<String>, bool) {
     std::fs::write(folder.join("p.ngc"), text).unwrap();
@@ -49,8 +65,8 @@ pub fn theirs(text: &str, folder: &Path) -> (Vec<String>, bool) {
     (calls(&rows), output.status.success())
 }
 
-/// Our calls in the drop-in form, and whether the program ended well.
-pub fn ours(text: &str) -> (Vec<String>, bool) {
+/// Our commands in the drop-in form; an error ends them.
+pub fn interpret(text: &str) -> impl Iterator<Item = Result<Step, Box<takt_base::Diag>>> {
     let tools = Some(tool::read(SourceId(0), TOOLS, 25.4).unwrap().into());
     let control = MotionMode::Continuous(0.0);
     let options = Options {
@@ -62,8 +78,13 @@ pub fn ours(text: &str) -> (Vec<String>, bool) {
         calls_max: 9,
         ..Options::default()
     };
+    Interpreter::new(SourceId(0), text, options).take(100_000)
+}
+
+/// Our calls in the drop-in form, and whether the program ended well.
+pub fn ours(text: &str) -> (Vec<String>, bool) {
     let (mut listing, mut out, mut right) = (Listing::new(25.4), String::new(), true);
-    for step in Interpreter::new(SourceId(0), text, options).take(100_000) {
+    for step in interpret(text) {
         match step {
             Ok(step) => listing.step(&step, &mut out),
             Err(_) => right = false,

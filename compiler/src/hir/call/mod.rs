@@ -6,6 +6,7 @@ mod conversion;
 mod dialect;
 mod enable;
 mod fold;
+mod generic;
 mod standard;
 mod user;
 
