@@ -127,6 +127,10 @@ impl Spindle {
     pub fn commanded(&self, position: &Point) -> f64 {
         if self.command.direction == 0 { 0.0 } else { self.command.speed.at(position) }
     }
+    /// 1 for M3, -1 for M4, 0 for M5.
+    pub fn sense(&self) -> f64 {
+        f64::from(self.command.direction)
+    }
     /// Encoder: revolutions since the start, positive clockwise.
     pub fn revolutions(&self) -> f64 {
         self.revolutions

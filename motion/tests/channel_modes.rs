@@ -186,6 +186,15 @@ fn machine_lock() {
     assert_eq!(rig.axis(0), 30.0);
 }
 
+/// R1-87: one axis alone is locked.
+#[test]
+fn one_axis_is_locked() {
+    let (mut rig, panel) = panel(plain(), "F6000\nG1 X10 Y10 Z-5\nM2\n");
+    rig.word(&panel, "AxisLock", 0b100);
+    start(&mut rig, &panel, CncState::Ready);
+    assert_eq!([rig.axis(0), rig.axis(1), rig.axis(2)], [10.0, 10.0, 0.0]);
+}
+
 /// M1 with and without the switch; `/` with and without the switch, as it was at the start; codes with and without the lock.
 #[test]
 fn optional_stop_block_skip_and_lock_of_codes() {

@@ -249,6 +249,27 @@ fn thread_follows_the_encoder() {
     assert_eq!(rig.axis(2), -10.0);
 }
 
+/// A thread with M4, from a spindle that has just been switched on.
+#[test]
+fn thread_with_the_spindle_the_other_way() {
+    let (mut rig, run) = running(plain(), "S300 M4\nG33 Z-6 K2\nM2\n");
+    let mut off = 0.0f64;
+    for _ in 0..20_000 {
+        rig.run(&[&run], 1);
+        let turn = rig.machine.core().channels[0].spindle.revolutions();
+        if rig.axis(2) < -2.0 && rig.axis(2) > -5.9 {
+            // Minus one revolution, two millimetres down; it starts at a whole turn.
+            let phase = (turn - rig.axis(2) / 2.0).rem_euclid(1.0);
+            off = off.max(phase.min(1.0 - phase));
+        }
+        if rig.get(&run, "Done") {
+            break;
+        }
+    }
+    assert!(rig.get(&run, "Done"), "{:?}", rig.error());
+    assert!(off < 1e-6, "{off}");
+}
+
 /// Two G33 in a row are one thread: the second goes on where the first ended, in phase.
 #[test]
 fn chained_threads() {

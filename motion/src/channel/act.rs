@@ -19,6 +19,7 @@ impl Channel {
             single: self.stops_at_blocks(),
             spindle_rev: self.spindle.revolutions(),
             spindle_rps: self.spindle.speed(),
+            spindle_sense: self.spindle.sense(),
         }
     }
 

@@ -103,8 +103,8 @@ pub struct Channel {
     step: bool,
     /// The next block is kept back.
     kept_back: bool,
-    /// The axes do not follow.
-    locked: bool,
+    /// Axes that do not follow, a bit each.
+    locked: u16,
     /// One block or a subroutine runs, not the program.
     typed: bool,
     check: typed::Check,
@@ -148,7 +148,7 @@ impl Channel {
             started: Modes::default(),
             step: false,
             kept_back: false,
-            locked: false,
+            locked: 0,
             typed: false,
             check: typed::Check::Idle,
             returned: 0.0,
@@ -324,7 +324,7 @@ impl Channel {
         if !self.is_moving_state() {
             return;
         }
-        let demand = self.demand_now();
+        let mut demand = self.demand_now();
         let mut left = self.dt;
         if let Some(p) = &mut self.pulses {
             p.begin_tick(left);
@@ -341,7 +341,8 @@ impl Channel {
                 self.spindle.reverse();
             }
             match reached {
-                Reached::Action(step, rest) if self.act(&step) => left = rest,
+                // What was done may change what the path sees: the sense of the spindle, for one.
+                Reached::Action(step, rest) if self.act(&step) => (left, demand) = (rest, self.demand_now()),
                 reached => {
                     if reached == Reached::Block {
                         self.block_end();
@@ -434,13 +435,10 @@ impl Channel {
 
     /// Set positions of the axes.
     fn drive(&self, axes: &mut [Axis]) {
-        if self.locked {
-            return self.stand(axes);
-        }
         let position = self.position();
-        for (p, axis) in position.iter().zip(self.map) {
+        for (i, (p, axis)) in position.iter().zip(self.map).enumerate() {
             if let Some(axis) = axis.and_then(|i| axes.get_mut(i)) {
-                axis.follow(*p);
+                axis.follow(if self.has_lock(i) { axis.set_position() } else { *p });
             }
         }
     }

@@ -18,6 +18,8 @@ pub struct Modes {
     pub dry_run: bool,
     /// The axes stay where they are; everything else goes on.
     pub machine_lock: bool,
+    /// The same for single axes: bit 0 is X, bit 1 Y, and so on.
+    pub axis_lock: u16,
     /// M, S and T codes are not given out, but for M0, M1, M2 and M30.
     pub aux_lock: bool,
     /// Rows with `/` are left out.
@@ -51,7 +53,7 @@ impl Channel {
     pub fn modes_in_force(&self) -> [bool; 6] {
         let m = &self.modes;
         let optional = m.optional_stop || self.config.optional_stop;
-        [m.single_block, optional, self.started.dry_run, self.locked && self.joined, m.aux_lock, self.started.block_skip]
+        [m.single_block, optional, self.started.dry_run, self.is_locked() && self.joined, m.aux_lock, self.started.block_skip]
     }
 
     /// Switches modes.
@@ -59,18 +61,18 @@ impl Channel {
         self.modes = modes;
     }
 
-    /// The axes of the running program are locked.
+    /// An axis of the running program is locked.
     pub fn is_locked(&self) -> bool {
-        self.locked
+        self.locked != 0
     }
 
-    /// Machine lock: the axes are told to stay where they are.
-    pub(super) fn stand(&self, axes: &mut [Axis]) {
-        for axis in self.map.iter().flatten() {
-            if let Some(axis) = axes.get_mut(*axis) {
-                axis.follow(axis.set_position());
-            }
-        }
+    /// Axes that a program locks that starts now.
+    pub(super) fn lock(&self) -> u16 {
+        if self.modes.machine_lock { u16::MAX } else { self.modes.axis_lock }
+    }
+
+    pub(super) fn has_lock(&self, coordinate: usize) -> bool {
+        self.locked >> coordinate & 1 != 0
     }
 
     /// How the next program runs.

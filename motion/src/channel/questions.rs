@@ -113,10 +113,9 @@ impl Channel {
         let Some(probe) = self.executor.probing() else { return };
         if self.io.probe == probe.towards {
             let mut at = self.executor.position();
-            if !self.locked {
-                for (p, axis) in at.iter_mut().zip(self.map) {
-                    *p = axis.and_then(|i| axes.get(i)).map_or(*p, Axis::actual_position);
-                }
+            for (i, (p, axis)) in at.iter_mut().zip(self.map).enumerate() {
+                let axis = axis.and_then(|i| axes.get(i)).filter(|_| !self.has_lock(i));
+                *p = axis.map_or(*p, Axis::actual_position);
             }
             self.executor.trip(at);
         }

@@ -7,7 +7,7 @@ use crate::natives::{Core, Frame, rules};
 use crate::{block, enable_pins};
 
 block! {
-    /// DryRun, MachineLock and BlockSkip are taken over when a program starts; the other switches count at once. FeedHold beats
+    /// DryRun, MachineLock, AxisLock (bit 0 is X) and BlockSkip are taken over when a program starts; the other switches count at once. FeedHold beats
     /// CycleStart, which starts the loaded program or goes on with it. Error tells how the last button was refused.
     "CNC_Panel", call;
     InOut Cnc: "CNC_REF";
@@ -18,6 +18,7 @@ block! {
     Input OptionalStop: "BOOL";
     Input DryRun: "BOOL";
     Input MachineLock: "BOOL";
+    Input AxisLock: "WORD";
     Input AuxLock: "BOOL";
     Input BlockSkip: "BOOL";
     Input ReadInDisable: "BOOL";
@@ -53,6 +54,7 @@ fn buttons(f: &Frame) -> Panel {
             optional_stop: f.bool(P::OptionalStop),
             dry_run: f.bool(P::DryRun),
             machine_lock: f.bool(P::MachineLock),
+            axis_lock: f.u16(P::AxisLock),
             aux_lock: f.bool(P::AuxLock),
             block_skip: f.bool(P::BlockSkip),
             read_in_disable: f.bool(P::ReadInDisable),

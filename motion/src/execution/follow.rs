@@ -35,7 +35,7 @@ pub struct Follow {
 
 impl Follow {
     fn new(stage: Stage, pitch: f64, demand: &Demand) -> Self {
-        let sense = if demand.spindle_rps < 0.0 { -1.0 } else { 1.0 };
+        let sense = if demand.spindle_sense < 0.0 { -1.0 } else { 1.0 };
         Self { stage, pitch, sense, origin: (sense * demand.spindle_rev).ceil(), v: 0.0, stopped: false }
     }
 

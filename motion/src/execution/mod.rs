@@ -52,6 +52,8 @@ pub struct Demand {
     pub spindle_rev: f64,
     /// Its speed in rev/s, signed.
     pub spindle_rps: f64,
+    /// 1 for M3, -1 for M4: it may stand still as yet.
+    pub spindle_sense: f64,
 }
 
 impl Default for Demand {
@@ -67,6 +69,7 @@ impl Default for Demand {
             single: false,
             spindle_rev: 0.0,
             spindle_rps: 0.0,
+            spindle_sense: 1.0,
         }
     }
 }
