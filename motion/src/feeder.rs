@@ -86,13 +86,17 @@ pub struct PartProgram {
     pub modal: Option<Modal>,
 }
 
+/// Parameter with the work offset system in force.
+const WORK_SYSTEM: u16 = 5220;
+
 /// Reads RS274/NGC text.
 pub fn ngc_reader() -> Reader {
     Box::new(|program| {
         let options = Options {
             start: program.start,
             host: program.host.clone(),
-            parameters: program.kept.parameters.clone(),
+            // The system that the configuration names is in force at the start, not the one that the last program left.
+            parameters: program.kept.parameters.iter().copied().filter(|p| p.0 != WORK_SYSTEM).collect(),
             tools: program.kept.tools.clone(),
             tool: program.kept.tool,
             skip_deleted: program.skip_deleted,

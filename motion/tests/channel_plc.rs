@@ -193,6 +193,17 @@ fn parameters_and_tools_survive() {
     assert_eq!([rig.real(V), rig.axis(0), rig.axis(1), rig.real(V + 16)], [7.0, 11.0, 20.0, 0.0]);
 }
 
+/// The codes of the configuration are in force at the start of every program, whatever the one before has left.
+#[test]
+fn every_program_starts_alike() {
+    let files = disk(&[("a.ngc", "G10 L2 P2 X5\nG0 X0\nG91 G20 G57\nM30\n")]);
+    let mut rig = shop(&three_axes(ChannelConfig { modes: "G55".into(), ..plain() }), &files);
+    for _ in 0..2 {
+        run_program(&mut rig, "a.ngc");
+        assert_eq!(rig.axis(0), 5.0);
+    }
+}
+
 /// What a program was read ahead to do and did not is not kept: an abort in the middle keeps what the last synchronisation point had.
 #[test]
 fn an_abort_keeps_what_was_executed() {
