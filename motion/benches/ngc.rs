@@ -126,7 +126,7 @@ fn list(path: &Path) {
             rows.clear();
         }
     }
-    listing.finish(&mut rows);
+    listing.finish(true, &mut rows);
     out.write_all(&rows).expect("room for the listing");
 }
 

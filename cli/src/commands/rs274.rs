@@ -69,6 +69,7 @@ fn execute(args: &Args) -> Result<Status, Problem> {
     let parameters = existing.map(|path| tables::parameters(path, &mut sources)).transpose()?.unwrap_or_default();
     let ini = args.ini.as_deref().map(Ini::read).transpose()?.unwrap_or_default();
     let folders = ini.folders(&args.file);
+    let orient_offset = ini.values.get("_ini[rs274ngc]orient_offset").copied().unwrap_or(0.0);
     let host = Arc::new(Subroutines::new(folders, sources, (id, text.clone()), ini.values));
     let options = Options {
         drop_in: true,
@@ -80,6 +81,7 @@ fn execute(args: &Args) -> Result<Status, Problem> {
         parameters: parameters.into(),
         host: HostRef::new(host.clone()),
         calls_max: 9,
+        orient_offset,
         ..Options::default()
     };
     eprintln!("executing");
@@ -128,7 +130,8 @@ fn list(args: &Args, interpreter: &mut Interpreter, host: &Subroutines) -> Resul
             out.flush();
         }
     }
-    listing.finish(&mut out.rows);
+    // With an INI file that program leaves out what it calls at its exit.
+    listing.finish(args.ini.is_none(), &mut out.rows);
     out.flush();
     Ok(wrong)
 }

@@ -66,6 +66,8 @@ pub struct Options {
     pub host: HostRef,
     /// Calls that may be in progress at one time.
     pub calls_max: usize,
+    /// Added to the angle of M19, degrees.
+    pub orient_offset: f64,
     /// Rows that may run without a command coming out: more is an endless loop.
     pub silent_rows_max: u32,
     /// Dialect, strictness, settings of a control.
@@ -97,6 +99,7 @@ impl Default for Options {
             parameters: Arc::new([]),
             host: HostRef::default(),
             calls_max: 100,
+            orient_offset: 0.0,
             silent_rows_max: 1_000_000,
             language: super::fanuc::Language::default(),
         }

@@ -178,6 +178,7 @@ impl State {
         match what {
             P::VersionMajor => 2.9,
             P::VersionMinor | P::Task | P::RemapLevel | P::U | P::V | P::W => 0.0,
+            P::AbsoluteU | P::AbsoluteV | P::AbsoluteW => 0.0,
             P::Line => f64::from(self.line),
             P::MotionMode => m.motion.map_or(800.0, |motion| f64::from(motion.code())),
             P::Plane => match m.plane {
@@ -222,6 +223,12 @@ impl State {
             P::A => p.a,
             P::B => p.b,
             P::C => p.c,
+            P::AbsoluteX => m.machine(p).x / mm_per_unit(m.units),
+            P::AbsoluteY => m.machine(p).y / mm_per_unit(m.units),
+            P::AbsoluteZ => m.machine(p).z / mm_per_unit(m.units),
+            P::AbsoluteA => m.machine(p).a,
+            P::AbsoluteB => m.machine(p).b,
+            P::AbsoluteC => m.machine(p).c,
             P::CurrentTool => f64::from(m.tool_in_spindle),
             P::CurrentPocket => f64::from(self.tools.pocket_of(m.tool_in_spindle)),
             P::SelectedTool => f64::from(m.tool),

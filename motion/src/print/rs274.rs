@@ -92,15 +92,17 @@ impl Listing {
         back.clear();
     }
 
-    /// The rows behind the last step.
-    pub fn finish(&mut self, out: &mut Vec<u8>) {
+    /// The rows behind the last step, and those of the exit of the process if `exits`.
+    pub fn finish(&mut self, exits: bool, out: &mut Vec<u8>) {
         if !self.opened {
             self.open(out);
         }
         if !self.closed {
             self.row(None, "ON_RESET()", out);
         }
-        self.row(None, "ON_RESET()", out);
+        if exits {
+            self.row(None, "ON_RESET()", out);
+        }
     }
 
     fn open(&mut self, out: &mut Vec<u8>) {

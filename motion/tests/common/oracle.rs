@@ -90,7 +90,7 @@ pub fn ours(text: &str) -> (Vec<String>, bool) {
             Err(_) => right = false,
         }
     }
-    listing.finish(&mut out);
+    listing.finish(true, &mut out);
     (calls(&String::from_utf8_lossy(&out)), right)
 }
 

@@ -112,6 +112,10 @@ impl Run<'_, '_> {
         let modal = self.modal();
         modal.side = Some(side);
         modal.side_dynamic = dynamic;
+        self.say(match side {
+            Side::Left => "cutter radius compensation on left",
+            Side::Right => "cutter radius compensation on right",
+        });
         Ok(())
     }
 
@@ -150,6 +154,7 @@ impl Run<'_, '_> {
         self.flush_compensation();
         self.modal().side = None;
         self.state.comp = Comp::default();
+        self.say("cutter radius compensation off");
     }
 
     /// Emits the move that waits, and what waits behind it.

@@ -14,7 +14,7 @@ pub use offsets::origin;
 pub use stop::epilogue;
 
 use super::code::{Code as Arena, Row};
-use super::modal::Modal;
+use super::modal::{Distance, Modal, Retract};
 use super::motion;
 use super::request::{Request, not_now};
 use super::state::State;
@@ -108,6 +108,13 @@ impl Run<'_, '_> {
         self.wait(command);
     }
 
+    /// What LinuxCNC says in its listing of a mode that no canonical command shows.
+    pub fn say(&mut self, what: &str) {
+        if self.state.options.drop_in {
+            self.emit(Canon::Comment(format!("interpreter: {what}")));
+        }
+    }
+
     #[cold]
     fn wait(&mut self, command: Canon) {
         let said = matches!(command, Canon::Comment(_) | Canon::Message(_) | Canon::Print(_) | Canon::Log(_));
@@ -191,13 +198,27 @@ impl Run<'_, '_> {
             self.control(control)?;
         }
         if let Some(Action::Distance(distance)) = self.request.code(Group::Distance) {
-            self.modal().distance = distance;
+            if std::mem::replace(&mut self.modal().distance, distance) != distance {
+                self.say(match distance {
+                    Distance::Absolute => "distance mode changed to absolute",
+                    Distance::Incremental => "distance mode changed to incremental",
+                });
+            }
         }
         if let Some(Action::ArcDistance(distance)) = self.request.code(Group::ArcDistance) {
-            self.modal().arc_distance = distance;
+            if std::mem::replace(&mut self.modal().arc_distance, distance) != distance {
+                self.say(match distance {
+                    Distance::Absolute => "IJK distance mode changed to absolute",
+                    Distance::Incremental => "IJK distance mode changed to incremental",
+                });
+            }
         }
         if let Some(Action::Retract(retract)) = self.request.code(Group::Retract) {
             self.modal().retract = retract;
+            self.say(match retract {
+                Retract::R => "retract mode set to r_plane",
+                Retract::OldZ => "retract mode set to old_z",
+            });
         }
         Ok(())
     }
@@ -224,6 +245,7 @@ impl Run<'_, '_> {
             self.modal().motion = motion;
             if motion.is_none() {
                 super::cycle::forget(&mut self.state.sticky);
+                self.say("motion mode set to none");
             }
         }
         if let Some(motion) = self.request.motion

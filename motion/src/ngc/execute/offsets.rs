@@ -35,6 +35,7 @@ impl Run<'_, '_> {
         }
         if let Some(Action::Diameter(on)) = self.request.code(Group::Lathe) {
             self.modal().diameter = on;
+            self.say(if on { "Lathe diameter mode changed to diameter" } else { "Lathe diameter mode changed to radius" });
         }
         Ok(())
     }
@@ -68,7 +69,7 @@ impl Run<'_, '_> {
     /// Choosing the work offset that is in force changes nothing and emits nothing.
     pub(super) fn work_offset(&mut self, index: usize) {
         if index == self.state.modal.work_offset {
-            return;
+            return self.say("continuing to use same coordinate system");
         }
         let (work, rotation) = self.state.work(index);
         self.state.params.set(5220, index as f64 + 1.0);
@@ -109,7 +110,7 @@ impl Run<'_, '_> {
         self.state.store(crate::ngc::state::WORK_FIRST + 20 * index as u16, work);
         self.state.params.set(crate::ngc::state::WORK_FIRST + 20 * index as u16 + 9, rotation);
         if index != self.state.modal.work_offset {
-            return;
+            return self.say("setting coordinate system origin");
         }
         let before = self.state.modal.offsets;
         self.modal().change_offsets(Offsets { work, rotation, ..before });

@@ -16,6 +16,11 @@ impl Run<'_, '_> {
         if before != mode || drop_in {
             self.modal().feed = None;
         }
+        self.say(match mode {
+            FeedMode::InverseTime => "feed mode set to inverse time",
+            FeedMode::PerMinute => "feed mode set to units per minute",
+            FeedMode::PerRevolution => "feed mode set to units per revolution",
+        });
         let per_rev = mode == FeedMode::PerRevolution;
         if drop_in || per_rev != (before == FeedMode::PerRevolution) {
             self.emit(Canon::SetFeedMode(per_rev));

@@ -56,23 +56,17 @@ impl Run<'_, '_> {
     }
 
     fn orient(&mut self) -> Done {
-        let Some(word) = self.request.word('R') else {
-            if self.state.options.drop_in {
-                return Ok(());
-            }
-            self.emit(Canon::OrientSpindle(0.0, Direction::Clockwise));
-            return Ok(());
-        };
-        if !(0.0..=360.0).contains(&word.value) {
+        let (angle, way) = (self.request.word('R'), self.request.value('P'));
+        if let Some(word) = angle.filter(|word| !(0.0..=360.0).contains(&word.value)) {
             return Err(Box::new(bad_value(word, "no angle", "write 0 to 360 degrees")));
         }
-        let way = self.request.value('P').unwrap_or(0.0);
-        let direction = if way == 2.0 { Direction::Counterclockwise } else { Direction::Clockwise };
-        let drop_in = self.state.options.drop_in;
-        self.emit(match drop_in {
-            true => Canon::OrientSpindleMode(word.value, way as u32),
-            false => Canon::OrientSpindle(word.value, direction),
-        });
+        let degrees = angle.map_or(0.0, |word| word.value) + self.state.options.orient_offset;
+        let direction = if way == Some(2.0) { Direction::Counterclockwise } else { Direction::Clockwise };
+        if !self.state.options.drop_in {
+            self.emit(Canon::OrientSpindle(degrees, direction));
+        } else if angle.is_some() || way.is_some() {
+            self.emit(Canon::OrientSpindleMode(degrees, way.unwrap_or(0.0) as u32));
+        }
         if let Some(wait) = self.request.word('Q') {
             if wait.value <= 0.0 {
                 return Err(Box::new(bad_value(wait, "no time", "write the longest wait in seconds")));

@@ -173,10 +173,15 @@ impl Flow {
 
     fn end_sub(&mut self, key: Key, word: &OWord, state: &mut State, stack: &mut Stack) -> Result<After, Fault> {
         let Some(frame) = self.frames.last().copied() else {
-            let text = if word.keyword == Keyword::Return { "a return" } else { "an endsub" };
-            return Err(misfit(word.place, &format!("{text} outside of a subroutine"), "it stands between sub and endsub"));
+            if word.keyword == Keyword::Return {
+                // LinuxCNC takes the value and goes on.
+                state.params.returned = self.argument(word.args, state, stack)?;
+                return Ok(After::Next);
+            }
+            return Err(misfit(word.place, "an endsub outside of a subroutine", "it stands behind a sub with the same label"));
         };
-        if frame.key != key {
+        // A return may carry any label: there is but one subroutine that it can leave.
+        if frame.key != key && word.keyword == Keyword::EndSub {
             return Err(misfit(
                 word.place,
                 "another subroutine is being executed",

@@ -58,20 +58,18 @@ impl Reader {
     }
 }
 
-/// `N` and a whole number at the start of a row.
+/// `N` and a number at the start of a row.
 fn number_word(cursor: &mut Cursor) -> Result<Option<u32>, Fault> {
     let from = cursor.pos;
     if !cursor.eat(b'n') {
         return Ok(None);
     }
     let Some(value) = cursor.plain_number()? else { return Err(no_value(cursor, from)) };
-    match word::whole(value) {
-        Some(n) => Ok(Some(n)),
-        None => {
-            let (start, end) = cursor.span(from, cursor.pos);
-            Err(Fault::at(Code::BadWord, start, end, "not a whole number", "write N and digits, up to N4294967295"))
-        }
+    if (0.0..4_294_967_296.0).contains(&value) {
+        return Ok(Some(value as u32)); // LinuxCNC: what stands behind the point does not count
     }
+    let (start, end) = cursor.span(from, cursor.pos);
+    Err(Fault::at(Code::BadWord, start, end, "no block number", "write N and digits, up to N4294967295"))
 }
 
 fn item(byte: u8, cursor: &mut Cursor, arena: &mut Arena, _first: usize) -> Result<(), Fault> {
