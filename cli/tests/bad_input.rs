@@ -68,6 +68,16 @@ fn project_files_with_mistakes() {
         ("[[motion.channel]]\nname = \"C\"\naxes = [\"Nobody\"]", "C0001", "Nobody"),
         ("[[motion.axis]]\nname = \"X\"\n[[motion.channel]]\nname = \"C\"\naxes = [\"X\"]\nmode = \"steam\"", "C0001", "steam"),
         ("[[motion.axis]]\nname = \"X\"\n[[motion.channel]]\nname = \"C\"\naxes = [\"X\"]\nmodes = \"G999\"", "C0001", "G999"),
+        (
+            "[[motion.axis]]\nname = \"X\"\n[[motion.channel]]\nname = \"C\"\naxes = [\"X\"]\ndialect = \"klartext\"",
+            "C0001",
+            "klartext",
+        ),
+        (
+            "[[motion.axis]]\nname = \"X\"\n[[motion.channel]]\nname = \"C\"\naxes = [\"X\"]\nsettings = [\"steam\"]",
+            "C0001",
+            "steam",
+        ),
     ] {
         fs::write(dir.join("takt.toml"), toml).unwrap();
         let ran = takt_in(&dir, &["sim", "."]);

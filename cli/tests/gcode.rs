@@ -67,3 +67,40 @@ fn gcode_takes_tables_and_subroutines() {
     let ran = takt(&["gcode", &path("p.ngc"), "--check", "--tool-table", &path("t.tbl")]);
     assert!(ran.status == 1 && ran.stderr.contains("N0024"), "{}", ran.stderr);
 }
+
+/// Dialects, settings, files of called programs, the lenient switch.
+#[test]
+fn gcode_speaks_dialects() {
+    let folder = folder("gcode-dialects");
+    let path = |name: &str| folder.join(name).display().to_string();
+    fs::write(folder.join("O0002.ngc"), "G0 X#1 Z-5\nM99\n").unwrap();
+    fs::write(folder.join("t.nc"), "%\nO0001 (SHAFT)\nG98 G65 P2 A40\nG100 X30\nM30\nO9010\nG1 X#24 F100\nM99\n%\n").unwrap();
+    let ran = takt(&["gcode", &path("t.nc"), "--dialect", "fanuc-turn", "--set", "G100=9010", "--canon"]);
+    assert_eq!((ran.status, ran.stderr.as_str()), (0, ""), "{}", ran.stdout);
+    assert!(ran.stdout.contains("STRAIGHT_TRAVERSE(20.0000, 0.0000, -5.0000"), "{}", ran.stdout);
+    assert!(ran.stdout.contains("STRAIGHT_FEED(15.0000, 0.0000, -5.0000"), "{}", ran.stdout);
+    let ran = takt(&[
+        "gcode",
+        &path("t.nc"),
+        "--dialect",
+        "fanuc-turn",
+        "--set",
+        "G100=9010",
+        "--plan",
+        "--limits",
+        "v=100,a=1000",
+        "--format",
+        "json",
+    ]);
+    assert!(ran.status == 0 && ran.stdout.contains("length_mm"), "{}{}", ran.stdout, ran.stderr);
+    let ran = takt(&["gcode", &path("t.nc"), "--dialect", "fanuc-mill", "--check"]);
+    assert!(ran.status == 1 && ran.stderr.contains("N0003") && ran.stderr.contains("t.nc:4:1"), "{}", ran.stderr);
+    assert_eq!(takt(&["gcode", &path("t.nc"), "--dialect", "fanuc-turn", "--set", "steam", "--check"]).status, 2);
+    assert_eq!(takt(&["gcode", &path("t.nc"), "--dialect", "klartext", "--check"]).status, 2);
+    fs::write(folder.join("p.gcode"), "m104 s200 ; hot\ng21\ng0 x1\ng1 x2 e0.5 f100\ng92 e0\n").unwrap();
+    let strict = takt(&["gcode", &path("p.gcode"), "--check"]);
+    assert_eq!(strict.status, 1, "{}", strict.stderr);
+    let ran = takt(&["gcode", &path("p.gcode"), "--lenient", "--check", "--canon"]);
+    assert!(ran.status == 0 && ran.stderr.matches("N0057").count() == 3, "{}", ran.stderr);
+    assert!(ran.stdout.contains("STRAIGHT_FEED(2.0000") && !ran.stdout.contains("SPINDLE"), "{}", ran.stdout);
+}

@@ -5,7 +5,7 @@
 use crate::canon::{Position, Step};
 use crate::geometry::Point;
 use crate::lookahead::{AxisLimits, Move, Planner};
-use crate::ngc::{Interpreter, Options};
+use crate::ngc::{Interpreter, Language, Options};
 use crate::pulse::pulse_move;
 use crate::run::{Item, RunError, RunReader, Work};
 use crate::segment::{Action, ErrorNote, Mark, Planned};
@@ -31,12 +31,14 @@ pub struct PartProgram {
     pub start: Position,
     /// Codes that stand before every program of this channel.
     pub modes: String,
+    /// Dialect, strictness and settings.
+    pub language: Language,
 }
 
 /// Reads RS274/NGC text.
 pub fn ngc_reader() -> Reader {
     Box::new(|program| {
-        let options = Options { start: program.start, ..Options::default() };
+        let options = Options { start: program.start, language: program.language.clone(), ..Options::default() };
         match options.with_modes(program.source, &program.modes) {
             Ok(options) => Box::new(Interpreter::new(program.source, program.text.clone(), options)),
             Err(diag) => Box::new(std::iter::once(Err(diag))),
@@ -105,6 +107,8 @@ pub struct FeederConfig {
     pub check_on_load: bool,
     /// Codes before every program.
     pub modes: String,
+    /// Dialect, strictness and settings.
+    pub language: Language,
 }
 
 /// Steps read when a program is checked; a longer one is checked no further.
@@ -191,7 +195,7 @@ impl Feeder {
 
     /// The first error of the program, whatever the position of the machine. Travel is checked when it runs.
     fn check(&self, program: &Program, start: &Point, reader: &Reader) -> Result<(), Box<ErrorNote>> {
-        let (sources, steps) = open(program, start, reader, &self.config.modes);
+        let (sources, steps) = open(program, start, reader, &self.config);
         let work = Work { exists: self.config.work.exists, ..Work::default() };
         let mut run = RunReader::new(work, *start);
         for step in steps.take(CHECKED_STEPS) {
@@ -204,7 +208,7 @@ impl Feeder {
 
     fn run(&mut self, run: u32, start: &Point, reader: &Reader) {
         self.running = self.program.as_ref().map(|program| {
-            let (sources, steps) = open(program, start, reader, &self.config.modes);
+            let (sources, steps) = open(program, start, reader, &self.config);
             Running {
                 sources,
                 steps,
@@ -317,11 +321,13 @@ fn pulses(m: &Move, config: &FeederConfig, blu_mm: f64, batch_max: u32) -> Resul
     Ok(pulses)
 }
 
-fn open(program: &Program, start: &Point, reader: &Reader, modes: &str) -> (Sources, Steps) {
+fn open(program: &Program, start: &Point, reader: &Reader, config: &FeederConfig) -> (Sources, Steps) {
     let mut sources = Sources::new();
     let source = sources.add(program.name.clone(), &*program.text);
     let start = (*start).into();
-    let steps = reader(&PartProgram { source, text: program.text.clone(), start, modes: modes.to_owned() });
+    let FeederConfig { modes, language, .. } = config;
+    let program = PartProgram { source, text: program.text.clone(), start, modes: modes.clone(), language: language.clone() };
+    let steps = reader(&program);
     (sources, steps)
 }
 

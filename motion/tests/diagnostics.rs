@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use takt_base::units::{Mm, MmPerMin};
 use takt_base::{Code, Severity, SourceId, Sources};
 use takt_motion::canon::{Position, Step};
-use takt_motion::ngc::{Interpreter, Options, Style, Travel, check};
+use takt_motion::ngc::{Interpreter, Language, Options, Style, Travel, check};
 
 /// Defaults, with a travel of -1000..1000 on all axes, a grid of 0.001 mm and a largest feed of 10000 mm/min.
 fn options() -> Options {
@@ -15,8 +15,19 @@ fn options() -> Options {
     Options { travel: Some(travel), grid: Some(Mm(0.001)), feed_max: Some(MmPerMin(10_000.0)), tools, ..Options::default() }
 }
 
+/// The same in a dialect, or leniently.
+fn options_in(language: &str) -> Options {
+    let lenient = language == "lenient";
+    let dialect = if lenient { "ngc" } else { language };
+    Options { language: Language::new(dialect, lenient, &[]).unwrap(), ..options() }
+}
+
 /// `CODE line:column` of each diagnostic.
 fn shown(text: &str) -> String {
+    shown_in("ngc", text)
+}
+
+fn shown_in(language: &str, text: &str) -> String {
     let mut sources = Sources::new();
     let id = sources.add("a.ngc", text);
     let at = |d: &takt_base::Diag| {
@@ -25,7 +36,7 @@ fn shown(text: &str) -> String {
         assert!(!takt_base::diag::render(d, &sources).is_empty());
         format!("{} {}:{}", d.code.text(), place.line, place.column)
     };
-    check(id, text, options()).iter().map(at).collect::<Vec<_>>().join(", ")
+    check(id, text, options_in(language)).iter().map(at).collect::<Vec<_>>().join(", ")
 }
 
 const CASES: &[(&str, &str)] = &[
@@ -95,7 +106,9 @@ const CASES: &[(&str, &str)] = &[
     ("G0 X#1", ""),
     ("G0 X[1+2]", ""),
     ("O100 SUB", "N0019 1:1"),
-    ("G71 Q1", "N0014 1:1"),
+    ("G71.5 Q1", "N0014 1:1"),
+    ("G18 F1 G71 Q1", "N0020 1:8"),
+    ("G18 F1 G0 X9 Z1\no1 sub\nG0 X2\nG1 Z-5\nX4 Z-3\nX9\no1 endsub\nG71 Q1", "N0056 8:1"),
     ("G0 X[1 + * 2]", "N0016 1:10"),
     ("G0 X#<never_set>", "N0017 1:5"),
     ("G0 X[1 / [2 - 2]]", "N0018 1:8"),
@@ -126,6 +139,52 @@ const CASES: &[(&str, &str)] = &[
     ("g1f1 0 0x-1. 5 y +.5", ""),
 ];
 
+/// Of the dialects.
+const OTHERS: &[(&str, &str, &str)] = &[
+    ("fanuc-mill", "IF[#1 GT 0]#2=1", "N0050 1:1"),
+    ("fanuc-mill", "#1", "N0050 1:1"),
+    ("fanuc-mill", "END1", "N0050 1:1"),
+    ("fanuc-mill", "WHILE[#1 LT 0]DO1", "N0050 1:1"),
+    ("fanuc-mill", "M98 P2\nM30\nO2\nG0 X1", "N0050 4:5"),
+    ("fanuc-mill", "GOTO 10", "N0051 1:1"),
+    ("fanuc-mill", "IF[1 EQ 1]GOTO#1", "N0051 1:1"),
+    ("fanuc-turn", "F1 G71 P1 Q2", "N0051 1:4"),
+    ("fanuc-mill", "G41.2", "N0052 1:1"),
+    ("fanuc-mill", "M198 P1", "N0052 1:1"),
+    ("fanuc-mill", "DPRNT[X#1[53]]", "N0052 1:1"),
+    ("fanuc-mill", "#1=PRM[5]", "N0052 1:4"),
+    ("fanuc-turn", "G1 X5 ,A30 F1", "N0052 1:7"),
+    ("fanuc-mill", "#34=1", "N0053 1:1"),
+    ("fanuc-mill", "G0 X#3001", "N0053 1:5"),
+    ("fanuc-mill", "#0=1", "N0053 1:1"),
+    ("fanuc-mill", "#1000=1", "N0053 1:1"),
+    ("fanuc-mill", "#3000=7(NO)", "N0054 1:1"),
+    ("fanuc-mill", "F100\nG1 X10 ,R20\nY10", "N0055 2:8"),
+    ("fanuc-mill", "F100\nG1 X10 ,C2\nM5", "N0055 2:8"),
+    ("fanuc-turn", "G0 X50 Z2\nG71 U2 R1\nG71 P1 Q2\nN1 G0 X20\nN2 G1 X60 Z-5 F1", "N0056 3:1"),
+    ("fanuc-turn", "G98 F100 G0 X50 Z2\nG71 U2 R1\nG71 P1 Q4\nN1 G0 X20\nG1 Z-5\nX10 Z-8\nN4 X50 Z-20", "N0056 3:1"),
+    ("fanuc-turn", "G98 F100 G0 X40\nG12.1\nG1 X-40", "N0058 3:1"),
+    ("fanuc-mill", "M98 P77", "N0020 1:1"),
+    ("fanuc-mill", "G65 P1\nM30\nO1\nG65 P1\nM99", "N0021 4:1"),
+    ("fanuc-mill", "N1 #1=1\nGOTO 1", "N0022 1:1"),
+    ("fanuc-mill", "G0 X[#1/0]", "N0018 1:8"),
+    ("fanuc-mill", "G0 X[1+", "N0016 1:8"),
+    ("fanuc-mill", "G0 X1 Q5", "N0009 1:7"),
+    ("fanuc-mill", "G84 Z-5 R1 F100", "N0026 1:1"),
+    ("fanuc-mill", "G17 G0 X1 N5 N6", "N0005 1:14"),
+    ("fanuc-mill", "F9 G1 X10 ,C2\nM5\nG1 Y5", "N0055 1:11"),
+    ("fanuc-mill", "GOTO 9\nG0 X$\nN9 M30\nO2\nG0 X\nM99\n%\nno program $", "N0002 2:4, N0002 5:4"),
+    ("lenient", "M104 S200", "N0057 1:1"),
+    ("lenient", "G0 X1\n%\nG0 X2", "N0057 2:1"),
+];
+
+#[test]
+fn places_of_errors_of_the_dialects() {
+    let all = OTHERS.iter().map(|(language, text, want)| (language, text, shown_in(language, text), *want));
+    let wrong: Vec<_> = all.filter(|(.., is, want)| is != want).collect();
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
 #[test]
 fn places_of_all_errors() {
     for (text, want) in CASES {
@@ -146,8 +205,13 @@ fn of_programs() -> impl Iterator<Item = Code> {
 
 #[test]
 fn every_n_code_is_provoked_and_has_a_page() {
-    let provoked: BTreeSet<&str> =
-        CASES.iter().flat_map(|(_, want)| want.split(", ")).filter_map(|w| w.split(' ').next()).collect();
+    let provoked: BTreeSet<&str> = CASES
+        .iter()
+        .map(|c| c.1)
+        .chain(OTHERS.iter().map(|o| o.2))
+        .flat_map(|want| want.split(", "))
+        .filter_map(|w| w.split(' ').next())
+        .collect();
     for code in of_programs() {
         assert!(provoked.contains(code.text()), "{} is never provoked", code.text());
         let page = code.page();
@@ -159,8 +223,11 @@ fn every_n_code_is_provoked_and_has_a_page() {
 #[test]
 fn pages_show_what_they_say() {
     for code in of_programs() {
-        let example = code.page().split("```ngc\n").nth(1).and_then(|p| p.split("```").next()).unwrap();
-        assert!(shown(example).contains(code.text()), "{}: {}", code.text(), shown(example));
+        let example = code.page().split("```ngc").nth(1).and_then(|p| p.split("```").next()).unwrap();
+        // Behind the fence stands the dialect, if it is another one.
+        let (language, example) = example.split_once('\n').unwrap();
+        let found = shown_in(if language.is_empty() { "ngc" } else { language.trim() }, example);
+        assert!(found.contains(code.text()), "{}: {found}", code.text());
     }
 }
 

@@ -20,6 +20,7 @@ fn an_abort_is_obeyed_in_the_middle_of_a_program() {
         pulse: None,
         check_on_load: false,
         modes: String::new(),
+        language: takt_motion::ngc::Language::default(),
     };
     let mut feeder = Feeder::new(config, command_rx, event_tx, out);
     assert!(commands.push(Command::Load { request: 1, name: [b'a'; NAME_BYTES], start: [0.0; 6] }).is_ok());

@@ -7,7 +7,7 @@ use takt_base::{Severity, SourceId, Sources};
 use takt_compiler::driver::{File, Project, compile};
 use takt_image::encode::{decode, encode};
 use takt_image::validate::validate;
-use takt_motion::ngc::{Options, check};
+use takt_motion::ngc::{Dialect, Language, Options, check};
 
 /// Source text: the compiler ends, gives an image or an error, and each message has a place that can be shown.
 pub fn st(bytes: &[u8]) {
@@ -23,13 +23,16 @@ pub fn st(bytes: &[u8]) {
     }
 }
 
-/// A part program: reading it ends, and each message has a place.
+/// A part program in any dialect: reading it ends, and each message has a place.
 pub fn ngc(bytes: &[u8]) {
     let text = String::from_utf8_lossy(bytes);
     let mut sources = Sources::new();
     sources.add("fuzz.ngc", &*text);
-    for diag in check(SourceId(0), &*text, Options::default()) {
-        assert!(!render(&diag, &sources).is_empty());
+    for dialect in [Dialect::LinuxCnc, Dialect::FanucMill, Dialect::FanucTurn] {
+        let language = Language { dialect, lenient: bytes.len() % 2 == 1, ..Language::default() };
+        for diag in check(SourceId(0), &*text, Options { language, ..Options::default() }) {
+            assert!(!render(&diag, &sources).is_empty());
+        }
     }
 }
 

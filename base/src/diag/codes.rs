@@ -199,6 +199,15 @@ codes! {
     N0042 RowTooLong "the row is too long for a part program";
     N0043 ProgramTooLarge "the part program needs more memory than it may have";
     N0044 NoSuchLine "the part program has no such line";
+    N0050 BadMacro "this macro statement does not fit here";
+    N0051 MissingBlock "no block has this number";
+    N0052 NotOfThisControl "the code belongs to other controls";
+    N0053 BadVariable "this variable can't be used here";
+    N0054 MacroAlarm "the macro program raises an alarm";
+    N0055 BadCorner "this corner can't be chamfered or rounded";
+    N0056 BadContour "this contour can't be cut in passes";
+    N0057 LeftOut "the lenient switch passes over this" Warning;
+    N0058 BadVirtualMove "polar or cylindrical interpolation can't make this move";
 
     // --- C project and image files ---
     C0001 BadProjectFile "the project file can't be used";

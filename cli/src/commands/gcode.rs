@@ -7,7 +7,7 @@ use crate::subroutines::{self, Subroutines, tables};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use takt_base::{Diag, SourceId, Sources, Span};
+use takt_base::{Code, Diag, SourceId, Sources, Span};
 use takt_motion::canon::Step;
 use takt_motion::ngc::{self, HostRef, Interpreter, Options, Text};
 use takt_motion::{draw, print};
@@ -46,9 +46,15 @@ pub struct Args {
     /// Skip blocks that start with /
     #[arg(long)]
     skip_deleted: bool,
-    /// Dialect; this version speaks ngc
-    #[arg(long, default_value = "ngc", value_parser = ["ngc"])]
+    /// Language of the program
+    #[arg(long, default_value = "ngc", value_parser = ["ngc", "linuxcnc", "fanuc-mill", "fanuc-turn"])]
     dialect: String,
+    /// Take files as users stream them: 3-D printer words, `%` inside, a bare G92
+    #[arg(long)]
+    lenient: bool,
+    /// Setting of a Fanuc-style control, such as increments, G100=9010 or rough_depth=1.5; may stand several times
+    #[arg(long, value_name = "SETTING", value_parser = setting)]
+    set: Vec<String>,
     /// Tool table
     #[arg(long, value_name = "FILE")]
     tool_table: Option<PathBuf>,
@@ -88,6 +94,7 @@ impl PartProgram {
             tools,
             parameters: parameters.unwrap_or_default().into(),
             host: HostRef::new(subroutines.clone()),
+            language: language(args)?,
             ..Options::default()
         };
         match options.with_modes(modes, &args.modes) {
@@ -122,6 +129,16 @@ impl PartProgram {
         let steps: Result<Vec<_>, Box<Diag>> = self.interpreter(None)?.collect();
         steps.map_err(|diag| self.problem(*diag))
     }
+}
+
+/// Dialect, strictness and settings.
+fn language(args: &Args) -> Result<ngc::Language, Problem> {
+    ngc::Language::new(&args.dialect, args.lenient, &args.set).map_err(|text| Problem::File(Code::BadValue, text))
+}
+
+/// A setting that a control has.
+fn setting(text: &str) -> Result<String, String> {
+    ngc::Settings::default().set(text).map(|()| text.to_owned())
 }
 
 fn execute(args: &Args) -> Result<Status, Problem> {

@@ -105,6 +105,9 @@ pub struct ChannelKeys {
     pub blu_mm: Option<f64>,
     pub handshake: Option<bool>,
     pub modes: Option<String>,
+    pub dialect: Option<String>,
+    pub lenient: Option<bool>,
+    pub settings: Option<Vec<String>>,
     pub require_homed: Option<bool>,
     pub aux_timeout: Option<String>,
 }

@@ -5,7 +5,7 @@ use super::load::Problem;
 use crate::duration;
 use takt_base::{Code, Nanos, SourceId};
 use takt_motion::machine::{AxisConfig, ChannelConfig, ChannelMode, MachineConfig};
-use takt_motion::ngc::Options;
+use takt_motion::ngc::{Language, Options};
 use takt_motion::pulse::dda::Preload;
 
 /// Iterations that the reference-pulse mode may do in one servo period.
@@ -61,6 +61,9 @@ fn axis(k: &AxisKeys) -> Result<AxisConfig, Problem> {
 fn channel(k: &ChannelKeys) -> Result<ChannelConfig, Problem> {
     let d = ChannelConfig::default();
     let modes = k.modes.clone().unwrap_or_default();
+    let dialect = k.dialect.as_deref().unwrap_or("ngc");
+    let settings = k.settings.clone().unwrap_or_default();
+    let language = Language::new(dialect, k.lenient.unwrap_or(false), &settings).map_err(bad)?;
     if let Err(diag) = Options::default().with_modes(SourceId(0), &modes) {
         return Err(bad(format!("modes = \"{modes}\": {} ({})", diag.message, diag.label)));
     }
@@ -72,6 +75,7 @@ fn channel(k: &ChannelKeys) -> Result<ChannelConfig, Problem> {
         aux_timeout_s: time("aux_timeout", k.aux_timeout.as_deref(), Nanos::ZERO)?.as_secs(),
         require_homed: k.require_homed.unwrap_or(d.require_homed),
         modes,
+        language,
         ..d
     })
 }

@@ -129,6 +129,8 @@ pub struct ChannelConfig {
     pub require_homed: bool,
     /// Codes that stand before every program, such as `G17 G21 G91`.
     pub modes: String,
+    /// Dialect, strictness and settings of its part programs.
+    pub language: crate::ngc::Language,
     /// CNC_LoadProgram reads the whole program and refuses a wrong one.
     pub check_on_load: bool,
 }
@@ -144,6 +146,7 @@ impl Default for ChannelConfig {
             optional_stop: false,
             require_homed: false,
             modes: String::new(),
+            language: crate::ngc::Language::default(),
             check_on_load: true,
         }
     }

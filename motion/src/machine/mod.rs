@@ -122,6 +122,7 @@ fn channel(machine: &MachineConfig, config: &ChannelConfig, dt: f64) -> (Channel
         pulse,
         check_on_load: config.check_on_load,
         modes: config.modes.clone(),
+        language: config.language.clone(),
     };
     let channel = Channel::new(config.clone(), machine.axis_map(config), dt, Link { commands, events, steps });
     (channel, Feeder::new(feeder, command_rx, event_tx, out))

@@ -89,6 +89,14 @@ pub struct Row {
     pub oword: Option<OWord>,
 }
 
+impl Row {
+    /// A row without words, comments and place.
+    pub const fn bare() -> Self {
+        let none = Slice { start: 0, end: 0 };
+        Row { place: (0, 0), line: 0, deleted: false, n: None, words: none, settings: none, comments: none, oword: None }
+    }
+}
+
 /// The arena.
 #[derive(Clone, Debug, Default)]
 pub struct Code {

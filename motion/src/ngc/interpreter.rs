@@ -8,6 +8,7 @@
 use super::code::Row;
 use super::execute::{self, Out, Then};
 use super::expr::run::Stack;
+use super::fanuc::{self, Went};
 use super::fault::Fault;
 use super::flow::files::Files;
 use super::flow::owords::After;
@@ -43,6 +44,8 @@ pub struct Interpreter {
     ended: bool,
     /// M99 in the main program ends it: errors are looked for, or one run is asked for.
     once: bool,
+    /// Reads a Fanuc-style dialect in place of `flow`.
+    fanuc: Option<Box<fanuc::Machine>>,
 }
 
 /// Rows that a check executes; a longer program is checked no further.
@@ -71,14 +74,24 @@ pub fn check_each(source: SourceId, text: impl Into<Text>, options: Options, mut
         interpreter.take_found();
         interpreter.diags.drain(..).filter(|d| seen.insert((d.span, d.code))).for_each(&mut found);
     }
+    if let Some(machine) = &mut interpreter.fanuc {
+        machine.unread().into_iter().filter(|d| seen.insert((d.span, d.code))).for_each(&mut found);
+    }
 }
 
 impl Interpreter {
     /// At the start of `text`, which is file `source` of the diagnostics.
     pub fn new(source: SourceId, text: impl Into<Text>, options: Options) -> Self {
         let options = Arc::new(options);
-        let flow = Flow::new(Files::new(source, text.into(), options.style));
-        let state = State::new(options.clone());
+        let text = text.into();
+        let mut state = State::new(options.clone());
+        let dialect = options.language.dialect;
+        let fanuc = dialect.is_fanuc().then(|| {
+            fanuc::prepare(&mut state, dialect);
+            Box::new(fanuc::Machine::new(source, text.clone(), &options, &state))
+        });
+        let mut flow = Flow::new(Files::new(source, text, options.style));
+        flow.lenient = options.language.lenient;
         let queue = prologue(&state, &options).into_iter().map(|command| Step { block: 0, line: 0, n: None, command }).collect();
         Interpreter {
             flow,
@@ -95,6 +108,7 @@ impl Interpreter {
             percent: false,
             ended: false,
             once: options.drop_in,
+            fanuc,
         }
     }
 
@@ -122,7 +136,11 @@ impl Interpreter {
         self.state.params.leave_all();
         (self.opened, self.percent) = (true, true);
         let source = self.flow.files.source();
-        if self.flow.files.seek(line.max(1)).map_err(|fault| Box::new(fault.diag(source)))? {
+        let found = match &mut self.fanuc {
+            Some(machine) => machine.seek(line.max(1)),
+            None => self.flow.files.seek(line.max(1)),
+        };
+        if found.map_err(|fault| Box::new(fault.diag(source)))? {
             return Ok(());
         }
         self.ended = true;
@@ -134,7 +152,13 @@ impl Interpreter {
 
     /// Reads one row: its commands go to the queue, what is wrong to `diags`.
     fn advance(&mut self) {
-        match self.flow.next_row() {
+        if let Some(machine) = self.fanuc.take() {
+            self.fanuc = Some(self.advance_fanuc(machine));
+            return;
+        }
+        let next = self.flow.next_row();
+        self.diags.append(&mut self.flow.notes);
+        match next {
             Next::Row(row) => self.row(&row),
             Next::Percent(start, end) => self.percent(start, end),
             Next::Wrong(fault, line) => {
@@ -146,6 +170,32 @@ impl Interpreter {
             Next::End => self.end_of_text(),
         }
         self.ended |= self.flow.files.broken;
+    }
+
+    /// The same in a Fanuc-style dialect.
+    fn advance_fanuc(&mut self, mut machine: Box<fanuc::Machine>) -> Box<fanuc::Machine> {
+        let (mark, before) = (self.queue.len(), self.diags.len());
+        let request = std::mem::take(&mut self.request);
+        let out = Out { queue: &mut self.queue, diags: &mut self.diags, block: self.block, line: self.state.line, n: None };
+        let span = Span::new(machine.source(), 0, 0);
+        let mut io = fanuc::kernel::Io { state: &mut self.state, out, request, span };
+        let went = machine.advance(&mut io);
+        self.block = io.out.block;
+        let line = io.out.line;
+        self.request = io.request;
+        if self.diags.len() > before && self.failed_now(before) {
+            self.queue.truncate(mark);
+            self.state.comp.reset();
+        }
+        match went {
+            Went::On => {}
+            Went::Ended => self.ended = true,
+            Went::Again if !self.once => machine.restart(),
+            Went::Again | Went::Out => self.finish(),
+        }
+        let place = (self.request.span.start, self.request.span.end);
+        self.count_silence(&Row { place, line, ..Row::bare() }, mark);
+        machine
     }
 
     fn fail(&mut self, fault: Fault) {
@@ -218,6 +268,9 @@ impl Interpreter {
             return;
         }
         self.then(then, row);
+        if self.diags.len() > diags_before && self.failed_now(diags_before) && !self.state.options.drop_in {
+            self.queue.truncate(mark);
+        }
     }
 
     fn failed_now(&self, before: usize) -> bool {
@@ -236,6 +289,7 @@ impl Interpreter {
                     self.fail(fault);
                 }
             }
+            Then::Contour(tenths) => self.contour_cycle(tenths, row),
             Then::Return => {
                 let depth = self.flow.depth();
                 if !self.flow.leave(&mut self.state) {
@@ -245,6 +299,64 @@ impl Interpreter {
                 }
             }
         }
+    }
+
+    /// The parts at work, for a cycle that makes many moves.
+    pub(super) fn parts(&mut self) -> (&Request, &mut State, &mut VecDeque<Step>, &mut Vec<Diag>, u32) {
+        (&self.request, &mut self.state, &mut self.queue, &mut self.diags, self.block)
+    }
+
+    /// The words of the block.
+    pub(super) fn request_ref(&self) -> &Request {
+        &self.request
+    }
+
+    /// Where the program goes on.
+    pub(super) fn flow_mut(&mut self) -> &mut Flow {
+        &mut self.flow
+    }
+
+    /// What is wrong so far.
+    pub(super) fn diags_mut(&mut self) -> &mut Vec<Diag> {
+        &mut self.diags
+    }
+
+    /// A mistake of a cycle.
+    pub(super) fn note(&mut self, diag: Diag) {
+        self.diags.push(diag);
+    }
+
+    /// Enters the subroutine of a contour.
+    pub(super) fn enter_sub(&mut self, number: u32, place: (u32, u32)) -> Result<(), Fault> {
+        self.flow.call_program(number, 1, place, &mut self.state)
+    }
+
+    /// Leaves it before its end.
+    pub(super) fn leave_sub(&mut self) {
+        self.flow.leave(&mut self.state);
+        self.state.saved.pop();
+    }
+
+    /// An O word of a contour; modes that were saved in it are forgotten.
+    pub(super) fn obey(&mut self, word: &super::oword::OWord) -> Result<After, Fault> {
+        let after = self.flow.obey(word, &mut self.state, &mut self.stack)?;
+        if after == After::Returned {
+            self.state.saved.pop();
+        }
+        Ok(after)
+    }
+
+    /// Computes the words of a row of a contour; returns how many diagnostics there were before.
+    pub(super) fn fill_request(&mut self, row: &Row) -> usize {
+        let (source, before) = (self.flow.files.source(), self.diags.len());
+        self.state.line = row.line;
+        self.request.fill(row, source, &self.flow.code, &mut self.state, &mut self.stack, &mut self.diags);
+        before
+    }
+
+    /// Modes and place of the contour.
+    pub(super) fn modal_mut(&mut self) -> &mut Modal {
+        &mut self.state.modal
     }
 
     /// M99 in the main program starts it anew.
@@ -287,6 +399,11 @@ impl Interpreter {
             let help = "`%` ends a program only if one stands before it";
             self.diags.push(Diag::new(Code::BadCharacter, span, "`%` inside of the program").help(help));
             return;
+        }
+        if self.opened && self.state.options.language.lenient && !self.flow.files.rest_is_blank() {
+            let span = Span::new(self.flow.files.source(), start, end);
+            let diag = Diag::new(Code::LeftOut, span, "`%` inside of the program").help("the program goes on behind it");
+            return self.diags.push(diag);
         }
         if self.opened {
             self.finish();

@@ -7,13 +7,16 @@
 pub mod arc;
 pub mod code;
 pub mod comp;
+mod contour;
 pub mod cycle;
 pub mod execute;
 pub mod expr;
+pub mod fanuc;
 pub mod fault;
 pub mod flow;
 pub mod host;
 pub mod interpreter;
+mod lenient;
 mod limits;
 pub mod lines;
 pub mod modal;
@@ -27,8 +30,10 @@ pub mod request;
 pub mod state;
 pub mod text;
 pub mod tool;
+pub mod turning;
 pub mod word;
 
+pub use fanuc::{Dialect, Language, Settings};
 pub use host::{Host, HostRef};
 pub use interpreter::{Interpreter, check, check_each};
 pub use lines::Style;

@@ -32,6 +32,8 @@ pub enum Motion {
     Thread,
     /// G73, G74, G81 .. G89.
     Canned(u8),
+    /// G70, G71, G71.1, G71.2, G72, G72.1, G72.2, in tenths: a contour of a lathe.
+    Contour(u16),
 }
 
 impl Motion {
@@ -50,6 +52,7 @@ impl Motion {
             331 => Motion::RigidTap,
             382..=385 => Motion::Probe((tenths - 380) as u8),
             760 => Motion::Thread,
+            700 | 710..=712 | 720..=722 => Motion::Contour(tenths as u16),
             730 | 740 | 810 | 820 | 830 | 840 | 850 | 860 | 870 | 880 | 890 => Motion::Canned((tenths / 10) as u8),
             _ => return None,
         })
@@ -71,6 +74,7 @@ impl Motion {
             Motion::Probe(n) => 380 + n as u32,
             Motion::Thread => 760,
             Motion::Canned(n) => n as u32 * 10,
+            Motion::Contour(tenths) => tenths as u32,
         }
     }
 
@@ -92,6 +96,9 @@ impl Motion {
             Motion::Probe(4) => "G38.4",
             Motion::Probe(_) => "G38.5",
             Motion::Thread => "G76",
+            Motion::Contour(700) => "G70",
+            Motion::Contour(710..=712) => "G71",
+            Motion::Contour(_) => "G72",
             Motion::Canned(73) => "G73",
             Motion::Canned(74) => "G74",
             Motion::Canned(81) => "G81",
@@ -118,6 +125,8 @@ impl Motion {
             Motion::Synchronized => "XYZABCK@^",
             Motion::RigidTap => "XYZABCKI@^",
             Motion::Thread => "ZPIJRKQHEL",
+            Motion::Contour(700) => "QXYZABCDEP",
+            Motion::Contour(_) => "QXYZABCDIR",
             Motion::Canned(73 | 83) => "XYZRLQ@^",
             Motion::Canned(74 | 82 | 84 | 86 | 88 | 89) => "XYZRLP@^",
             Motion::Canned(87) => "XYZRLIJK@^",

@@ -66,6 +66,8 @@ pub struct Options {
     pub calls_max: usize,
     /// Rows that may run without a command coming out: more is an endless loop.
     pub silent_rows_max: u32,
+    /// Dialect, strictness, settings of a control.
+    pub language: super::fanuc::Language,
 }
 
 impl Default for Options {
@@ -93,6 +95,7 @@ impl Default for Options {
             host: HostRef::default(),
             calls_max: 100,
             silent_rows_max: 1_000_000,
+            language: super::fanuc::Language::default(),
         }
     }
 }

@@ -10,6 +10,8 @@ use super::state::State;
 use super::word::{self, Action, Control, GROUPS, Group};
 use takt_base::{Code, Diag, SourceId, Span};
 
+mod put;
+
 /// A letter and its number.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Word {

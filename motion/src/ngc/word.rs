@@ -364,7 +364,7 @@ pub fn m(number: u32) -> Option<Action> {
 /// What to write instead of a G code of other controls or of a later version; empty if there is nothing to say.
 pub fn instead_of_g(tenths: u32) -> &'static str {
     match tenths {
-        700..=729 => "roughing cycles are not part of this version: let the CAM system write the passes",
+        700..=729 => "the cycles of a contour are G70, G71, G71.1, G71.2, G72, G72.1 and G72.2",
         500 | 510 | 501 | 511 | 680 | 690 => "scale, mirror or rotate in the CAM system, or use G10 L2 P1 R for a rotation",
         310 => "probe with G38.2",
         440 => "write a negative length into the tool table and use G43",

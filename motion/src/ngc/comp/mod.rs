@@ -3,7 +3,7 @@
 //! Invariant: what is emitted runs at the tool radius beside the contour; at outside corners an arc leads round the corner.
 
 mod contour;
-mod corner;
+pub(in crate::ngc) mod corner;
 
 use super::arc::Point;
 use super::execute::{Done, Run};

@@ -63,6 +63,8 @@ pub enum Then {
     Call(u32, u32),
     /// M99.
     Return,
+    /// G70 to G72: the contour has to be read.
+    Contour(u16),
 }
 
 /// Runs a block that `request` holds. After an error the modes are as if the block had been right as far as that is known, so that the

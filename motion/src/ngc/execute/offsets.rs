@@ -140,11 +140,16 @@ impl Run<'_, '_> {
         if self.state.modal.side.is_some() {
             return Err(Box::new(not_now(at, "another origin while G41 or G42 is in force", "write G40 first")));
         }
-        if matches!(offset, Offset::Local | Offset::Set) && !self.request.any("XYZABCUVW") {
+        let bare = !self.request.any("XYZABCUVW");
+        if offset == Offset::Set && bare && self.state.options.language.lenient {
+            let help = "all axes become 0 here, as printers take it; write G92 X0 Y0 Z0";
+            self.out.diags.push(Diag::new(takt_base::Code::LeftOut, at, "a G92 without axis words").help(help));
+        } else if matches!(offset, Offset::Local | Offset::Set) && bare {
             return Err(Box::new(missing(at, "an axis word").help("write the axes whose offset changes, such as G92 X0")));
         }
         let local = match offset {
             Offset::Local => self.axes_in_mm(self.state.modal.offsets.local),
+            Offset::Set if bare => plus(self.state.modal.offsets.local, scaled(self.state.modal.position, self.state.unit())),
             Offset::Set => self.offset_that_makes(),
             Offset::Clear | Offset::Suspend => Position::default(),
             Offset::Restore => self.state.stored(LOCAL_FIRST),

@@ -8,12 +8,14 @@ mod skip;
 
 use super::code::{Code as Arena, Row};
 use super::fault::Fault;
+use super::lenient;
 use super::lines::{Place, trimmed};
 use super::param::Name;
 use super::reader::Reader;
+use super::text;
 use files::{Files, Spot};
 use std::collections::HashMap;
-use takt_base::Code;
+use takt_base::{Code, Diag};
 
 /// A subroutine or block.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -85,6 +87,10 @@ pub struct Flow {
     pub thorough: bool,
     /// Errors found in rows that are not executed.
     pub found: Vec<(u32, Fault)>,
+    /// Takes files as users stream them.
+    pub lenient: bool,
+    /// What was passed over.
+    pub notes: Vec<Diag>,
 }
 
 /// What comes next in the text.
@@ -117,6 +123,8 @@ impl Flow {
             restarted: false,
             thorough: false,
             found: Vec::new(),
+            lenient: false,
+            notes: Vec::new(),
         }
     }
 
@@ -174,7 +182,14 @@ impl Flow {
         if trimmed(inside).starts_with(b"%") {
             return Next::Percent(piece.range.start, piece.range.end);
         }
-        match self.reader.read(inside, piece.range.start, piece.line, &mut self.code) {
+        let cleaned =
+            if self.lenient { lenient::clean(&text::line(inside), self.files.source(), piece.range.start) } else { None };
+        let inside = cleaned.as_ref().map_or(inside, |c| c.0.as_bytes());
+        let read = self.reader.read(inside, piece.range.start, piece.line, &mut self.code);
+        if let Some((_, notes)) = cleaned {
+            self.notes.extend(notes);
+        }
+        match read {
             Ok(row) => Next::Row(row),
             Err(fault) => Next::Wrong(fault, piece.line),
         }

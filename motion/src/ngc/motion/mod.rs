@@ -1,6 +1,6 @@
 //! Motion blocks: where they end and what they emit (R1-48, R1-57, R1-58).
 
-mod arc_words;
+pub mod arc_words;
 mod probe;
 mod spindle;
 mod spline;
@@ -39,6 +39,10 @@ pub fn run(run: &mut Run, motion: Motion) -> Done {
         Motion::Synchronized => spindle::synchronized(run),
         Motion::RigidTap => spindle::rigid_tap(run),
         Motion::Thread => cycle::thread::run(run),
+        Motion::Contour(tenths) => {
+            run.then = super::execute::Then::Contour(tenths);
+            Ok(())
+        }
         Motion::Cubic | Motion::Quadratic | Motion::Nurbs | Motion::NurbsEnd => spline::run(run, motion),
     }
 }

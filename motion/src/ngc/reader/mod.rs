@@ -3,7 +3,7 @@
 
 pub mod cursor;
 mod oword;
-mod squeeze;
+pub(in crate::ngc) mod squeeze;
 
 use super::code::{Code as Arena, Row, Setting, Target, Word};
 use super::expr::{Slice, Value, compile};
