@@ -133,6 +133,12 @@ fn arguments_of_both_kinds() {
     assert_eq!(xs("G65 P1 A1 B2 I-3 I4 D5\nM30\nO1\nG0 X#7\nM99"), [5.0]);
 }
 
+/// Codes beside a call count before it.
+#[test]
+fn codes_beside_a_call() {
+    assert_eq!(xs("G0 X5\nG91 G65 P1 X3\nM30\nO1\nG0 X#24\nM99"), [5.0, 8.0]);
+}
+
 /// Locals belong to a call of G65, not of M98; commons to all.
 #[test]
 fn locals_and_commons() {
@@ -477,6 +483,30 @@ fn m99_repeats_the_program() {
         .filter(|s| matches!(s.as_ref().map(|s| &s.command), Ok(Canon::StraightTraverse(_))));
     assert!(moves.count() > 290);
     assert!(check(SourceId(0), text, options("fanuc-mill", &[])).iter().all(|d| d.severity != Severity::Error));
+}
+
+/// Time is linear in the text, whatever it holds.
+#[test]
+fn long_texts() {
+    let n = 100_000;
+    for text in [
+        "X1".repeat(n),
+        "G8".repeat(n),
+        "M8".repeat(n),
+        "G0X1X".repeat(n),
+        "%\n".repeat(n),
+        "[".repeat(n),
+        format!("#1={}1", "1+".repeat(n)),
+        format!("#1=#1+1\n{}IF[#1 LT 300]GOTO 1", "N1\n".repeat(n)),
+        format!("{}M98 P7\nM30\nO7\nM99", "O7\nM99\n".repeat(n)),
+        format!("G0 X1\n{}G0 X2", "%\n".repeat(n)),
+    ] {
+        for lenient in [false, true] {
+            let language = Language::new("fanuc-mill", lenient, &[]).unwrap();
+            let steps = Interpreter::new(SourceId(0), text.as_str(), Options { language, ..Options::default() });
+            assert!(steps.count() < n + 20);
+        }
+    }
 }
 
 /// A straight file of any length runs; a wrong block gives out nothing.

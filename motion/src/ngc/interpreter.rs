@@ -44,6 +44,8 @@ pub struct Interpreter {
     ended: bool,
     /// M99 in the main program ends it: errors are looked for, or one run is asked for.
     once: bool,
+    /// A `%` of a lenient program that ends it, or stands inside of it if a row follows.
+    stray: Option<Span>,
     /// Reads a Fanuc-style dialect in place of `flow`.
     fanuc: Option<Box<fanuc::Machine>>,
 }
@@ -100,14 +102,15 @@ impl Interpreter {
             stack: Stack::new(),
             queue,
             seen: false,
+            ended: false,
             diags: Vec::new(),
             failed: None,
             block: 0,
             silent: 0,
             opened: false,
             percent: false,
-            ended: false,
             once: options.drop_in,
+            stray: None,
             fanuc,
         }
     }
@@ -134,7 +137,9 @@ impl Interpreter {
     pub fn seek(&mut self, line: u32) -> Result<(), Box<Diag>> {
         self.flow.leave_all();
         self.state.params.leave_all();
-        (self.opened, self.percent) = (true, true);
+        (self.opened, self.percent, self.seen) = (true, true, false);
+        self.queue.clear();
+        self.state.comp.reset();
         let source = self.flow.files.source();
         let found = match &mut self.fanuc {
             Some(machine) => machine.seek(line.max(1)),
@@ -204,6 +209,10 @@ impl Interpreter {
 
     fn row(&mut self, row: &Row) {
         self.opened = true;
+        if let Some(span) = self.stray.take() {
+            let diag = Diag::new(Code::LeftOut, span, "`%` inside of the program").help("the program goes on behind it");
+            self.diags.push(diag);
+        }
         if row.deleted && self.state.options.skip_deleted {
             return;
         }
@@ -400,10 +409,9 @@ impl Interpreter {
             self.diags.push(Diag::new(Code::BadCharacter, span, "`%` inside of the program").help(help));
             return;
         }
-        if self.opened && self.state.options.language.lenient && !self.flow.files.rest_is_blank() {
-            let span = Span::new(self.flow.files.source(), start, end);
-            let diag = Diag::new(Code::LeftOut, span, "`%` inside of the program").help("the program goes on behind it");
-            return self.diags.push(diag);
+        if self.opened && self.state.options.language.lenient {
+            self.stray = Some(Span::new(self.flow.files.source(), start, end));
+            return;
         }
         if self.opened {
             self.finish();

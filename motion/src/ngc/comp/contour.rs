@@ -85,7 +85,7 @@ pub fn follow(run: &mut Run, command: Canon, end: Position) -> Done {
         run.state.comp.pending = Some(next(set_aside, direction));
         return Ok(());
     }
-    let set_aside = corner::offset_along(&curve, radius, [starts, direction]).ok_or_else(|| small_arc(at, radius))?;
+    let set_aside = corner::offset(&curve, radius, [starts, direction]).ok_or_else(|| small_arc(at, radius))?;
     join(run, next(set_aside, direction), starts, radius)
 }
 

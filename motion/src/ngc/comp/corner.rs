@@ -81,13 +81,8 @@ impl Curve {
     }
 }
 
-/// The curve beside `curve` at `radius`; `None` if an arc would vanish.
-pub fn offset(curve: &Curve, radius: f64) -> Option<Curve> {
-    offset_along(curve, radius, [curve.direction_at_start(), curve.direction_at_end()])
-}
-
-/// The same where the directions at start and end are known.
-pub fn offset_along(curve: &Curve, radius: f64, [starts, ends]: [Point; 2]) -> Option<Curve> {
+/// The curve beside `curve` at `radius`, whose directions at start and end are known; `None` if an arc would vanish.
+pub fn offset(curve: &Curve, radius: f64, [starts, ends]: [Point; 2]) -> Option<Curve> {
     let beside = |p: Point, direction: Point| add(p, scale(left(direction), radius));
     let (start, end) = (beside(curve.start(), starts), beside(curve.end(), ends));
     match *curve {

@@ -137,10 +137,12 @@ impl Block {
         }
     }
 
-    /// Two codes of one group, two words of one letter. Codes of group 0 act in the block alone, and one of them.
-    pub fn check(&self, out: &mut Vec<Diag>) {
-        for (i, code) in self.codes.iter().enumerate() {
-            if let Some(first) = self.codes[..i].iter().find(|c| c.group == code.group && !quiet(code) && !quiet(c)) {
+    /// Two codes of one group. Codes of group 0 act in the block alone, and one of them.
+    pub fn check_codes(&self, out: &mut Vec<Diag>) {
+        let mut groups: [Option<&GCode>; table::GROUPS] = [None; table::GROUPS];
+        for code in self.codes.iter().filter(|c| !quiet(c)) {
+            let first = *groups[code.group].get_or_insert(code);
+            if first.span != code.span {
                 out.push(
                     Diag::new(
                         Code::ModalConflict,
@@ -152,8 +154,14 @@ impl Block {
                 );
             }
         }
-        for (i, word) in self.words.iter().enumerate() {
-            if let Some(first) = self.words[..i].iter().find(|w| w.letter == word.letter) {
+    }
+
+    /// Two words of one letter.
+    pub fn check_words(&self, out: &mut Vec<Diag>) {
+        let mut letters: [Option<&Word>; 64] = [None; 64];
+        for word in &self.words {
+            let first = *letters[bit(word.letter).trailing_zeros() as usize % 64].get_or_insert(word);
+            if first.span != word.span {
                 out.push(
                     Diag::new(Code::DuplicateWord, word.span, format!("a second {} word", name(word.letter)))
                         .also(first.span, "the first one stands here")
@@ -161,6 +169,13 @@ impl Block {
                 );
             }
         }
+    }
+
+    /// The codes beside a macro call, whose words are its arguments.
+    pub fn beside_call(&self) -> Self {
+        let call = |c: &GCode| matches!(c.meaning, Meaning::Macro | Meaning::ModalMacro | Meaning::MacroOff);
+        let codes = self.codes.iter().copied().filter(|c| !call(c)).collect();
+        Block { span: self.span, codes, ..Block::default() }
     }
 
     /// The code with a meaning that `fits`.

@@ -55,10 +55,6 @@ impl Machine {
     /// G65, G66, G67 and codes with a macro behind them. `None` if the block calls nothing and goes on.
     pub(super) fn macro_codes(&mut self, b: &Block, io: &mut Io) -> Option<Result<Went>> {
         use super::table::Meaning;
-        if b.code(|m| m == Meaning::MacroOff).is_some() {
-            self.modal_macro = None;
-            self.modes.codes[12] = 670;
-        }
         if let Some(code) = b.code(|m| m == Meaning::Macro) {
             return Some(self.call_macro(b, code.span, io));
         }
@@ -67,6 +63,12 @@ impl Machine {
         }
         let &(user, span) = b.calls.first()?;
         Some(self.user_code(b, user, span, io))
+    }
+
+    /// G67.
+    pub(super) fn modal_macro_off(&mut self) {
+        self.modal_macro = None;
+        self.modes.codes[12] = 670;
     }
 
     /// P and L of a call, and its arguments: the words behind them.
@@ -104,7 +106,12 @@ impl Machine {
     }
 
     fn user_code(&mut self, b: &Block, user: UserCode, at: Span, io: &mut Io) -> Result<Went> {
-        let words: Vec<Word> = b.words.iter().copied().filter(|w| w.letter != b'L').collect();
+        if let Some(&(_, beside)) = b.m.first().filter(|_| user.letter == 'T' || user.call == MacroCall::Subprogram) {
+            let diag = Diag::new(Code::BadMacro, beside, "an M code beside a code with a macro");
+            return Err(Box::new(diag.also(at, "this code calls it").help("write two blocks")));
+        }
+        let mut words: Vec<Word> = b.words.iter().copied().filter(|w| w.letter != b'L').collect();
+        words.extend(b.m.iter().map(|&(m, span)| Word { letter: b'M', value: f64::from(m), exact: true, span }));
         let times = b.words.iter().find(|w| w.letter == b'L').and_then(Word::whole).unwrap_or(1).min(TIMES_MAX);
         let arguments = Box::new(arguments(&words));
         match (user.call, user.letter) {

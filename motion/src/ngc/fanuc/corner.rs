@@ -147,7 +147,8 @@ fn curve(seg: &Seg, io: &Io) -> Option<Curve> {
 
 /// Where a rounding of `radius` (positive to the left) leaves the first and enters the second curve, and its centre.
 fn round(first: &Curve, second: &Curve, radius: f64) -> Option<(Point, Point, Option<Point>)> {
-    let (a, b) = (offset(first, radius)?, offset(second, radius)?);
+    let beside = |c: &Curve| offset(c, radius, [c.direction_at_start(), c.direction_at_end()]);
+    let (a, b) = (beside(first)?, beside(second)?);
     let centre = intersection(&a, &b)?;
     Some((foot(first, centre)?, foot(second, centre)?, Some(centre)))
 }

@@ -22,22 +22,56 @@ impl Machine {
         if self.corner.is_some() && !self.goes_on_in_plane(b) {
             self.end_corner(io);
         }
-        if let Some(result) = self.macro_codes(b, io) {
-            return match result {
-                Ok(went) => went,
-                Err(diag) => {
-                    io.wrong(*diag);
-                    Went::On
-                }
-            };
-        }
-        b.check(io.out.diags);
+        b.check_codes(io.out.diags);
         self.refuse(b, io);
         if io.failed() {
             return Went::On;
         }
+        if let Some(went) = self.calls(b, io) {
+            return went;
+        }
+        b.check_words(io.out.diags);
+        if io.failed() {
+            return Went::On;
+        }
         self.remember(b);
-        let parts: [fn(&mut Self, &Block, &mut Io) -> Done; 10] = [
+        self.modal_parts(b, io);
+        for part in [Self::one_shot, Self::motion] {
+            let done = part(self, b, io);
+            self.done(done, io);
+        }
+        self.end_exact(b, io);
+        let went = self.stops(b, io);
+        self.unused(b, io);
+        went
+    }
+
+    /// A macro call: the codes beside it count before it.
+    fn calls(&mut self, b: &Block, io: &mut Io) -> Option<Went> {
+        if b.calls.is_empty() && b.code(|m| matches!(m, Meaning::Macro | Meaning::ModalMacro)).is_none() {
+            if b.code(|m| m == Meaning::MacroOff).is_some() {
+                self.modal_macro_off();
+            }
+            return None;
+        }
+        let beside = b.beside_call();
+        self.remember(&beside);
+        self.modal_parts(&beside, io);
+        if io.failed() {
+            return Some(Went::On);
+        }
+        match self.macro_codes(b, io)? {
+            Ok(went) => Some(went),
+            Err(diag) => {
+                io.wrong(*diag);
+                Some(Went::On)
+            }
+        }
+    }
+
+    /// Everything of a block but motion, one-shot codes and ends.
+    fn modal_parts(&mut self, b: &Block, io: &mut Io) {
+        let parts: [fn(&mut Self, &Block, &mut Io) -> Done; 8] = [
             Self::feed_and_speed,
             Self::tool,
             Self::auxiliary,
@@ -46,17 +80,11 @@ impl Machine {
             Self::systems,
             Self::shapes,
             Self::path_mode,
-            Self::one_shot,
-            Self::motion,
         ];
         for part in parts {
             let done = part(self, b, io);
             self.done(done, io);
         }
-        self.end_exact(b, io);
-        let went = self.stops(b, io);
-        self.unused(b, io);
-        went
     }
 
     /// A block that may follow a corner: a move at feed and nothing beside it.

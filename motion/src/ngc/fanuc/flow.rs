@@ -39,10 +39,11 @@ struct File {
     index: Option<Arc<Index>>,
 }
 
-/// Programs of a text and its N numbers, in their order: key of the row, number, place before it; of programs behind it.
+/// Programs of a text and its N numbers, in their order: keys of their rows and places before them.
 #[derive(Clone, Debug, Default)]
 struct Index {
-    programs: Vec<(u64, u32, Place)>,
+    programs: Vec<u64>,
+    numbers: HashMap<u32, Place, Quick>,
     labels: HashMap<u32, Vec<(u64, Place)>, Quick>,
 }
 
@@ -199,17 +200,6 @@ impl Flow {
         Ok(found.is_some())
     }
 
-    /// True if nothing but blanks and `%` stands behind the piece that was read last.
-    pub fn rest_is_blank(&mut self) -> bool {
-        let mut scan = self.file().lines;
-        while let Some(piece) = self.piece(self.at, &mut scan) {
-            if !self.part(self.at, piece.range).bytes().all(|b| b.is_ascii_whitespace() || b == b'%') {
-                return false;
-            }
-        }
-        true
-    }
-
     /// The line that was read last.
     pub fn line(&self) -> u32 {
         self.file().lines.line()
@@ -296,7 +286,10 @@ impl Flow {
             let before = scan.place;
             let Some(piece) = self.piece(file, &mut scan) else { break };
             match head(&self.part(file, piece.range)) {
-                Head::Program(number) => found.programs.push((before.key(), number, before)),
+                Head::Program(number) => {
+                    found.programs.push(before.key());
+                    found.numbers.entry(number).or_insert(before);
+                }
                 Head::Label(number) => found.labels.entry(number).or_default().push((before.key(), before)),
                 Head::None => {}
             }
@@ -306,9 +299,9 @@ impl Flow {
 
     /// Key of the row that starts the program at `key`, and of the one that starts the next.
     fn bounds(index: &Index, key: u64) -> (u64, u64) {
-        let behind = index.programs.partition_point(|p| p.0 <= key);
-        let start = if behind == 0 { 0 } else { index.programs[behind - 1].0 };
-        (start, index.programs.get(behind).map_or(u64::MAX, |p| p.0))
+        let behind = index.programs.partition_point(|&p| p <= key);
+        let start = if behind == 0 { 0 } else { index.programs[behind - 1] };
+        (start, index.programs.get(behind).copied().unwrap_or(u64::MAX))
     }
 
     /// Goes to the row with this N number of the program at hand: the next one, or else the first.
@@ -320,8 +313,9 @@ impl Flow {
         self.read_on()?;
         let here = self.here.place.key();
         let (start, end) = Self::bounds(&index, here);
-        let inside = || index.labels.get(&n).into_iter().flatten().filter(|l| l.0 >= start && l.0 < end);
-        let Some(&(_, target)) = inside().find(|l| l.0 > here).or_else(|| inside().next()) else {
+        let all = index.labels.get(&n).map_or(&[][..], Vec::as_slice);
+        let from = |key: u64| all.get(all.partition_point(|l| l.0 < key)).filter(|l| l.0 < end);
+        let Some(&(_, target)) = from(here + 1).or_else(|| from(start)) else {
             let help = "write the number of a block of this program";
             return Err(Fault::at(Code::MissingBlock, place.0, place.1, format!("no block N{n}"), help));
         };
@@ -353,10 +347,10 @@ impl Flow {
     /// # Errors
     /// It has no END, or too many loops are open.
     pub fn begin(&mut self, holds: bool, number: u32, place: (u32, u32)) -> Result<(), Fault> {
+        let Some(end) = self.find_end(number, self.here) else {
+            return Err(misfit(place, format!("no END{number} behind it"), "write END and the number of the DO"));
+        };
         if !holds {
-            let Some(end) = self.find_end(number, self.here) else {
-                return Err(misfit(place, format!("no END{number} behind it"), "write END and the number of the DO"));
-            };
             self.files[self.at as usize].lines.place = end;
             return Ok(());
         }
@@ -453,7 +447,7 @@ impl Flow {
 
     fn program_in(&mut self, file: u32, number: u32) -> Option<Spot> {
         let index = self.index(file);
-        let &(_, _, place) = index.programs.iter().find(|p| p.1 == number)?;
+        let &place = index.numbers.get(&number)?;
         Some(Spot { file, place })
     }
 

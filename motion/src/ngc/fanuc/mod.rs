@@ -71,6 +71,8 @@ pub struct Machine {
     modal_macro: Option<calls::ModalMacro>,
     /// The feed mode at the start was given out.
     said_feed_mode: bool,
+    /// A `%` that ends the program, or stands inside of it if a row follows.
+    stray: Option<Span>,
     /// Text of the comment of the row at hand, for alarms.
     said: String,
 }
@@ -118,6 +120,7 @@ impl Machine {
             nurbs: None,
             modal_macro: None,
             said_feed_mode: language.dialect != Dialect::FanucTurn,
+            stray: None,
             said: String::new(),
         }
     }
@@ -138,6 +141,8 @@ impl Machine {
     /// The file can't be read.
     pub fn seek(&mut self, line: u32) -> Result<bool, crate::ngc::fault::Fault> {
         (self.opened, self.fresh) = (true, false);
+        (self.corner, self.recording, self.nurbs, self.modal_macro) = (None, None, None, None);
+        self.in_profile = false;
         self.flow.seek(line)
     }
 
@@ -176,8 +181,8 @@ impl Machine {
         if self.fresh {
             return Went::On;
         }
-        if lenient && self.flow.depth() == 0 && !self.flow.rest_is_blank() {
-            io.wrong(Diag::new(Code::LeftOut, span, "`%` inside of the program").help("the program goes on behind it"));
+        if lenient && self.flow.depth() == 0 {
+            self.stray = Some(span);
             return Went::On;
         }
         self.end_of_text(io)
@@ -203,6 +208,9 @@ impl Machine {
 
     fn row(&mut self, row: &Row, io: &mut Io) -> Went {
         self.opened = true;
+        if let Some(span) = self.stray.take() {
+            io.wrong(Diag::new(Code::LeftOut, span, "`%` inside of the program").help("the program goes on behind it"));
+        }
         if row.skip && io.state.options.skip_deleted {
             return Went::On;
         }

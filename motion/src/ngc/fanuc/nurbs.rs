@@ -12,6 +12,8 @@ use takt_base::{Code, Diag, Span};
 
 /// Control points that a curve may have.
 const POINTS_MAX: usize = 100_000;
+/// Chords that it may become.
+const CHORDS_MAX: usize = 200_000;
 /// How often a span may be halved.
 const DEPTH_MAX: u32 = 12;
 /// Largest order.
@@ -87,7 +89,7 @@ impl Machine {
             let help = "the first control point is where the tool stands";
             return Err(Box::new(not_now(curve.at, "the curve does not start where the tool is", help)));
         }
-        let mut from = start;
+        let (mut from, mut chords) = (start, 0);
         for span in order - 1..n {
             let (t, u) = (curve.knots[span], curve.knots[span + 1]);
             if u <= t {
@@ -99,6 +101,11 @@ impl Machine {
             for part in 0..parts {
                 let [a, b] = [part, part + 1].map(|p| t + (u - t) * f64::from(p) / f64::from(parts));
                 curve.halve([a, b], span, tolerance, DEPTH_MAX, &mut points);
+            }
+            chords += points.len();
+            if chords > CHORDS_MAX {
+                let help = "set a larger chord_tolerance, or write several curves";
+                return Err(Box::new(Diag::new(Code::BadValue, curve.at, "more than 200000 chords").help(help)));
             }
             for [x, y, z] in points {
                 let to = Position { x, y, z, ..end };

@@ -127,6 +127,9 @@ impl Machine {
         }
         let levels =
             levels(start[1], deepest, depth).ok_or_else(|| wrong("more than 100000 passes", "make the depth of cut larger"))?;
+        if levels.len() * points.len() > 50_000_000 {
+            return Err(wrong("the contour is too long for so many passes", "make the depth of cut larger"));
+        }
         let (mut cuts, mut before) = (Vec::new(), start[1]);
         for level in levels {
             cuts.extend(passes(&points, start, level, before).into_iter().filter(|p| p.from != p.to).map(|p| (p, before)));
@@ -169,6 +172,10 @@ impl Machine {
         let segs = self.contour(bounds, at, io)?;
         if io.failed() {
             return Ok(());
+        }
+        if segs.len() * pattern.1 as usize > 200_000 {
+            let diag = Diag::new(Code::BadContour, at, "more than 200000 moves");
+            return Err(Box::new(diag.help("write fewer cuts, or a shorter contour")));
         }
         for k in 0..pattern.1 {
             let share = if pattern.1 > 1 { f64::from(pattern.1 - 1 - k) / f64::from(pattern.1 - 1) } else { 0.0 };

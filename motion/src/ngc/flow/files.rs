@@ -87,17 +87,6 @@ impl Files {
         self.all[self.at as usize].text.len()
     }
 
-    /// True if nothing but blanks and `%` stands behind the piece that was read last.
-    pub fn rest_is_blank(&mut self) -> bool {
-        let back = self.lines().place;
-        let mut blank = true;
-        while blank && let Ok(Some(piece)) = self.next_piece() {
-            blank = self.bytes(piece.range).iter().all(|b| b.is_ascii_whitespace() || *b == b'%');
-        }
-        self.lines().place = back;
-        blank
-    }
-
     /// Goes to a line (from 1) of the main program. False if there are fewer.
     ///
     /// # Errors

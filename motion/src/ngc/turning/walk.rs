@@ -47,7 +47,8 @@ pub struct Rough {
 pub fn beside(contour: &[Curve], radius: f64) -> Option<Vec<Curve>> {
     let mut all: Vec<Curve> = Vec::new();
     for curve in contour {
-        let mut next = if radius == 0.0 { *curve } else { offset(curve, radius)? };
+        let mut next =
+            if radius == 0.0 { *curve } else { offset(curve, radius, [curve.direction_at_start(), curve.direction_at_end()])? };
         if let Some(before) = all.last_mut().filter(|_| radius != 0.0) {
             let turn = angle(before.direction_at_end(), next.direction_at_start());
             let inside = turn * radius.signum();
@@ -224,7 +225,8 @@ impl Walk {
         let mut rest = self.pieces[i];
         let first = ((from - base) / self.rough.increment - 1e-9).ceil().max(0.0);
         let count = (to - base) / self.rough.increment - first;
-        if count.is_nan() || count > PASSES_MAX as f64 || self.steps.len() > 5 * PASSES_MAX {
+        let work = count * self.pieces.len() as f64;
+        if work.is_nan() || count > PASSES_MAX as f64 || work > 5e7 || self.steps.len() > 5 * PASSES_MAX {
             return None;
         }
         let mut k = first;
