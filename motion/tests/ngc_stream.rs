@@ -311,3 +311,25 @@ fn files_on_the_disk() {
     std::fs::remove_file(&path).unwrap();
     assert!(Text::open(&path).is_err());
 }
+
+/// The same for a Fanuc-style dialect: GOTO, subprograms, loops, comments.
+#[test]
+fn a_streamed_file_in_a_fanuc_dialect() {
+    let far: String = (0..6000).map(|i| format!("N{} G01 X{}. Y-{}.5 (row {i})\n", 100 + i, i % 90, i % 7)).collect();
+    let loops = "#1=0\nWHILE[#1LT3]DO1\nG01X#1\nM98P2L2\n#1=#1+1\nEND1\nIF[#2EQ1]GOTO7\n#2=1\nGOTO6000\nN7M30\n";
+    let text = format!("%\nO1\nG21G90G94F100\n{far}{loops}O2\nG91G01Z-1.\nG90\nM99\n%\n");
+    assert!(text.len() > BLOCK);
+    let options =
+        || Options { language: takt_motion::ngc::Language::new("fanuc-mill", false, &[]).unwrap(), ..Options::default() };
+    let steps = |text: Text| Interpreter::new(SourceId(0), text, options()).map(Result::unwrap).collect::<Vec<_>>();
+    let want = steps(text.as_str().into());
+    assert!(want.len() > 6000, "{} commands", want.len());
+    assert!(steps(streamed(Fake { part: 997, ..Fake::new(text.as_str()) })) == want);
+    let changed = streamed(Fake { changes: 3, ..Fake::new(text.as_str()) });
+    assert_eq!(Interpreter::new(SourceId(0), changed, options()).find_map(Result::err).map(|d| d.code), Some(Code::FileChanged));
+    let mut interpreter = Interpreter::new(SourceId(0), streamed(Fake::new(text.as_str())), options());
+    assert!(interpreter.by_ref().take(20).all(|s| s.is_ok()), "the feed is in force");
+    interpreter.seek(5000).unwrap();
+    let line = interpreter.find_map(|s| s.ok().map(|s| s.line).filter(|l| *l > 0));
+    assert_eq!(line, Some(5000));
+}

@@ -91,11 +91,9 @@ impl Interpreter {
         let text = text.into();
         let mut state = State::new(options.clone());
         let dialect = options.language.dialect;
-        let mut diags = Vec::new();
         let fanuc = dialect.is_fanuc().then(|| {
             fanuc::prepare(&mut state, dialect);
-            let whole = text.to_whole().map_err(|trouble| diags.push(trouble.fault(0).diag(source)));
-            Box::new(fanuc::Machine::new(source, whole.unwrap_or_default(), &options, &state))
+            Box::new(fanuc::Machine::new(source, text.clone(), &options, &state))
         });
         let mut flow = Flow::new(Files::new(source, text, options.style));
         flow.lenient = options.language.lenient;
@@ -107,8 +105,8 @@ impl Interpreter {
             stack: Stack::new(),
             queue,
             seen: false,
-            ended: !diags.is_empty(),
-            diags,
+            ended: false,
+            diags: Vec::new(),
             held: None,
             failed: None,
             block: 0,
@@ -159,9 +157,15 @@ impl Interpreter {
     pub fn seek(&mut self, line: u32) -> Result<(), Box<Diag>> {
         self.flow.leave_all();
         self.state.params.leave_all();
-        (self.opened, self.percent) = (true, true);
+        (self.opened, self.percent, self.seen) = (true, true, false);
+        self.queue.clear();
+        self.state.comp.reset();
         let source = self.flow.files.source();
-        if self.flow.files.seek(line.max(1)).map_err(|fault| Box::new(fault.diag(source)))? {
+        let found = match &mut self.fanuc {
+            Some(machine) => machine.seek(line.max(1)),
+            None => self.flow.files.seek(line.max(1)),
+        };
+        if found.map_err(|fault| Box::new(fault.diag(source)))? {
             return Ok(());
         }
         self.ended = true;

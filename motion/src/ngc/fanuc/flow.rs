@@ -8,8 +8,10 @@ use crate::ngc::flow::Quick;
 use crate::ngc::host::HostRef;
 use crate::ngc::lenient;
 use crate::ngc::lines::{Lines, Piece, Place, Style};
-use crate::ngc::text::{Text, View, Window};
+use crate::ngc::text::{self, Text, View, Window};
+use std::borrow::Cow;
 use std::collections::HashMap;
+use std::ops::Range;
 use std::sync::Arc;
 use takt_base::{Code, Diag, SourceId};
 
@@ -17,6 +19,8 @@ use takt_base::{Code, Diag, SourceId};
 const KEPT_MAX: usize = 100_000;
 /// Texts that one program may use.
 const FILES_MAX: usize = 1000;
+/// Errors of rows that did not run.
+const UNREAD_MAX: usize = 10_000;
 /// Loops that one macro may have open.
 const LOOPS_MAX: usize = 100;
 
@@ -30,24 +34,9 @@ pub struct Spot {
 #[derive(Clone, Debug)]
 struct File {
     source: SourceId,
-    text: Arc<str>,
-    /// The same, for `lines`.
-    over: Text,
+    text: Text,
     lines: Lines,
     index: Option<Arc<Index>>,
-}
-
-impl File {
-    fn new(source: SourceId, text: Arc<str>, style: Style) -> Self {
-        let over = Text::from(text.clone());
-        let lines = Lines::new(&mut View { text: &over, file: 0, window: &mut Window::default() }, style);
-        File { source, text, over, lines, index: None }
-    }
-}
-
-/// The next piece of a text that is held whole, so that it can't fail.
-fn piece_of(lines: &mut Lines, over: &Text) -> Option<Piece> {
-    lines.next(&mut View { text: over, file: 0, window: &mut Window::default() }).ok().flatten()
 }
 
 /// Programs of a text and its N numbers, in their order: keys of their rows and places before them.
@@ -113,6 +102,11 @@ pub struct Flow {
     pub lenient: bool,
     /// What was passed over.
     pub notes: Vec<Diag>,
+    window: Window,
+    /// Why a file could not be read on, until that is said.
+    trouble: Option<Fault>,
+    /// It has been said: the program is at its end.
+    pub broken: bool,
 }
 
 fn misfit(place: (u32, u32), label: impl Into<String>, help: &str) -> Fault {
@@ -121,9 +115,11 @@ fn misfit(place: (u32, u32), label: impl Into<String>, help: &str) -> Fault {
 
 impl Flow {
     /// At the start of a text.
-    pub fn new(source: SourceId, text: Arc<str>, style: Style) -> Self {
+    pub fn new(source: SourceId, text: Text, style: Style) -> Self {
+        let mut window = Window::default();
+        let lines = Lines::new(&mut View { text: &text, file: 0, window: &mut window }, style);
         Flow {
-            files: vec![File::new(source, text, style)],
+            files: vec![File { source, text, lines, index: None }],
             at: 0,
             style,
             reader: Reader::default(),
@@ -137,7 +133,38 @@ impl Flow {
             program: 0,
             lenient: false,
             notes: Vec::new(),
+            window,
+            trouble: None,
+            broken: false,
         }
+    }
+
+    /// The next piece of a file, read with lines of one's own; `None` at its end, and where it can't be read on.
+    fn piece(&mut self, file: u32, lines: &mut Lines) -> Option<Piece> {
+        let text = &self.files.get(file as usize)?.text;
+        match lines.next(&mut View { text, file, window: &mut self.window }) {
+            Ok(piece) => piece,
+            Err(trouble) => {
+                self.trouble.get_or_insert_with(|| trouble.fault(lines.place.next()));
+                None
+            }
+        }
+    }
+
+    /// What was looked for in a file that could not be read on may well be there.
+    fn read_on(&mut self) -> Result<(), Fault> {
+        match self.trouble.take() {
+            Some(fault) => {
+                self.broken = true;
+                Err(fault)
+            }
+            None => Ok(()),
+        }
+    }
+
+    /// The text of the piece that was read last.
+    fn part(&self, file: u32, range: Range<usize>) -> Cow<'_, str> {
+        self.files.get(file as usize).map_or(Cow::Borrowed(""), |f| text::line(self.window.bytes(&f.text, file, range)))
     }
 
     fn file(&self) -> &File {
@@ -149,9 +176,28 @@ impl Flow {
         self.file().source
     }
 
-    /// The text at hand.
-    pub fn text(&self) -> &str {
-        &self.file().text
+    /// The piece of the text at hand that was read last.
+    pub fn here(&self, range: Range<usize>) -> Cow<'_, str> {
+        self.part(self.at, range)
+    }
+
+    /// Byte at which the text at hand ends.
+    pub fn end_of_text(&self) -> usize {
+        self.file().text.len()
+    }
+
+    /// Goes to a line (from 1) of the main program. False if there are fewer.
+    ///
+    /// # Errors
+    /// The file can't be read.
+    pub fn seek(&mut self, line: u32) -> Result<bool, Fault> {
+        self.frames.clear();
+        self.loops.clear();
+        self.at = 0;
+        let Some(file) = self.files.first_mut() else { return Ok(false) };
+        let found = file.text.start_of(line).map_err(|trouble| trouble.fault(0))?;
+        file.lines.place = Place::at_line(line, found.unwrap_or(0));
+        Ok(found.is_some())
     }
 
     /// The line that was read last.
@@ -194,9 +240,17 @@ impl Flow {
             self.files[self.at as usize].lines.place = next;
             return Next::Row(row);
         }
-        let File { text, over, lines, source, .. } = &mut self.files[self.at as usize];
-        let Some(piece) = piece_of(lines, over) else { return Next::End };
-        let inside = &text[piece.range.clone()];
+        let mut lines = self.file().lines;
+        let piece = self.piece(self.at, &mut lines);
+        self.files[self.at as usize].lines = lines;
+        if let Err(fault) = self.read_on() {
+            return Next::Wrong(fault, lines.line());
+        }
+        let Some(piece) = piece else { return Next::End };
+        let source = self.source();
+        let inside = self.window.bytes(&self.files[self.at as usize].text, self.at, piece.range.clone());
+        let inside = text::line(inside);
+        let inside = &*inside;
         if inside.trim_start_matches([' ', '\t']).starts_with('%') {
             return Next::Percent(piece.range.start, piece.range.end);
         }
@@ -204,7 +258,7 @@ impl Flow {
             self.current = Arc::default();
         }
         let Some(row) = Arc::get_mut(&mut self.current) else { return Next::End };
-        let cleaned = if self.lenient { lenient::clean(inside, *source, piece.range.start) } else { None };
+        let cleaned = if self.lenient { lenient::clean(inside, source, piece.range.start) } else { None };
         let inside = cleaned.as_ref().map_or(inside, |c| c.0.as_str());
         let read = self.reader.read(inside, piece.range.start, piece.line, row);
         if let Some((_, notes)) = cleaned {
@@ -222,7 +276,7 @@ impl Flow {
     }
 
     fn index(&mut self, file: u32) -> Arc<Index> {
-        let File { text, over, lines, index, .. } = &mut self.files[file as usize];
+        let File { lines, index, .. } = &self.files[file as usize];
         if let Some(index) = index {
             return index.clone();
         }
@@ -230,8 +284,8 @@ impl Flow {
         scan.place = Place::default();
         loop {
             let before = scan.place;
-            let Some(piece) = piece_of(&mut scan, over) else { break };
-            match head(&text[piece.range]) {
+            let Some(piece) = self.piece(file, &mut scan) else { break };
+            match head(&self.part(file, piece.range)) {
                 Head::Program(number) => {
                     found.programs.push(before.key());
                     found.numbers.entry(number).or_insert(before);
@@ -240,7 +294,7 @@ impl Flow {
                 Head::None => {}
             }
         }
-        index.insert(Arc::new(found)).clone()
+        self.files[file as usize].index.insert(Arc::new(found)).clone()
     }
 
     /// Key of the row that starts the program at `key`, and of the one that starts the next.
@@ -256,6 +310,7 @@ impl Flow {
     /// There is none.
     pub fn goto(&mut self, n: u32, place: (u32, u32)) -> Result<(), Fault> {
         let index = self.index(self.at);
+        self.read_on()?;
         let here = self.here.place.key();
         let (start, end) = Self::bounds(&index, here);
         let all = index.labels.get(&n).map_or(&[][..], Vec::as_slice);
@@ -328,17 +383,16 @@ impl Flow {
         if let Some(&place) = self.ends.get(&key) {
             return Some(place);
         }
-        let File { text, over, lines, .. } = &self.files[from.file as usize];
-        let mut scan = *lines;
+        let mut scan = self.files[from.file as usize].lines;
         scan.place = from.place;
-        piece_of(&mut scan, over)?;
+        self.piece(from.file, &mut scan)?;
         loop {
-            let piece = piece_of(&mut scan, over)?;
-            let inside = &text[piece.range];
-            if matches!(head(inside), Head::Program(_)) {
+            let piece = self.piece(from.file, &mut scan)?;
+            let inside = self.part(from.file, piece.range);
+            if matches!(head(&inside), Head::Program(_)) {
                 return None;
             }
-            if is_end(inside, number) {
+            if is_end(&inside, number) {
                 break;
             }
         }
@@ -357,7 +411,9 @@ impl Flow {
             let label = format!("{} calls are in progress", self.frames.len());
             return Err(Fault::at(Code::NestedTooDeeply, place.0, place.1, label, help));
         }
-        let start = self.find(call.number, host).ok_or_else(|| {
+        let found = self.find(call.number, host);
+        self.read_on()?;
+        let start = found.ok_or_else(|| {
             let help =
                 format!("write it behind this one as O{0:04}, or put it into the file O{0:04}.ngc of the folder", call.number);
             Fault::at(Code::MissingSub, place.0, place.1, format!("no program O{:04}", call.number), help)
@@ -382,9 +438,9 @@ impl Flow {
         }
         let names = [format!("O{number:04}"), format!("o{number:04}"), number.to_string()];
         let (source, text) = names.iter().find_map(|name| host.open_text(name)).filter(|_| self.files.len() < FILES_MAX)?;
-        let text = text.to_whole().ok()?;
-        self.files.push(File::new(source, text, self.style));
-        let file = self.files.len() as u32 - 1;
+        let file = self.files.len() as u32;
+        let lines = Lines::new(&mut View { text: &text, file, window: &mut self.window }, self.style);
+        self.files.push(File { source, text, lines, index: None });
         // A file of its own may leave the program number out.
         self.program_in(file, number).or(Some(Spot { file, place: Place::default() }))
     }
@@ -431,12 +487,16 @@ impl Flow {
 
     /// What can't be read in the rows of the programs of the main text, whether they run or not.
     pub fn unread(&mut self) -> Vec<Diag> {
-        let File { source, text, over, lines, .. } = &self.files[0];
-        let (mut scan, mut row, mut found) = (*lines, Row::default(), Vec::new());
+        let File { source, lines, .. } = &self.files[0];
+        let (source, mut scan, mut row, mut found) = (*source, *lines, Row::default(), Vec::new());
         scan.place = Place::default();
         let (mut inside, mut opened) = (true, false);
-        while let Some(piece) = piece_of(&mut scan, over) {
-            let part = &text[piece.range.clone()];
+        while !self.broken
+            && found.len() < UNREAD_MAX
+            && let Some(piece) = self.piece(0, &mut scan)
+        {
+            let part = text::line(self.window.bytes(&self.files[0].text, 0, piece.range.clone()));
+            let part = &*part;
             if part.trim_start_matches([' ', '\t']).starts_with('%') {
                 // The second of two ends a program; what stands behind it is no row.
                 (inside, opened) = (!opened, false);
@@ -444,10 +504,10 @@ impl Flow {
             }
             inside |= matches!(head(part), Head::Program(_));
             opened |= inside;
-            let cleaned = if self.lenient { lenient::clean(part, *source, piece.range.start) } else { None };
+            let cleaned = if self.lenient { lenient::clean(part, source, piece.range.start) } else { None };
             let part = cleaned.as_ref().map_or(part, |c| c.0.as_str());
             if inside && let Err(fault) = self.reader.read(part, piece.range.start, piece.line, &mut row) {
-                found.push(fault.diag(*source));
+                found.push(fault.diag(source));
             }
         }
         found

@@ -40,12 +40,12 @@ use super::execute;
 use super::options::Options;
 use super::state::State;
 use crate::canon::{Canon, Plane, ProgramEnd};
+use crate::ngc::text::Text;
 use block::Block;
 use flow::{Flow, Next};
 use kernel::Io;
 use modes::Modes;
 use reader::{Control, Row};
-use std::sync::Arc;
 use takt_base::{Code, Diag, SourceId, Span};
 use vars::{Vars, View};
 
@@ -102,7 +102,7 @@ pub fn prepare(state: &mut State, dialect: Dialect) {
 
 impl Machine {
     /// At the start of a text.
-    pub fn new(source: SourceId, text: Arc<str>, options: &Options, state: &State) -> Self {
+    pub fn new(source: SourceId, text: Text, options: &Options, state: &State) -> Self {
         let language = &options.language;
         let mut flow = Flow::new(source, text, options.style);
         flow.lenient = language.lenient;
@@ -135,6 +135,17 @@ impl Machine {
         self.flow.unread()
     }
 
+    /// Goes to a line (from 1) of the main program. False if there are fewer.
+    ///
+    /// # Errors
+    /// The file can't be read.
+    pub fn seek(&mut self, line: u32) -> Result<bool, crate::ngc::fault::Fault> {
+        (self.opened, self.fresh) = (true, false);
+        (self.corner, self.recording, self.nurbs, self.modal_macro) = (None, None, None, None);
+        self.in_profile = false;
+        self.flow.seek(line)
+    }
+
     /// Back to the start.
     pub fn restart(&mut self) {
         self.flow.restart();
@@ -145,7 +156,7 @@ impl Machine {
     pub fn advance(&mut self, io: &mut Io) -> Went {
         let next = self.flow.next_row();
         io.out.diags.append(&mut self.flow.notes);
-        match next {
+        let went = match next {
             Next::Row(row) => self.row(&row, io),
             Next::Percent(start, end) => self.percent(start, end, io),
             Next::Wrong(fault, line) => {
@@ -155,14 +166,15 @@ impl Machine {
                 Went::On
             }
             Next::End => self.end_of_text(io),
-        }
+        };
+        if self.flow.broken { Went::Ended } else { went }
     }
 
     /// A line with `%` opens a text, and ends the program later.
     fn percent(&mut self, start: usize, end: usize, io: &mut Io) -> Went {
         let span = Span::new(self.flow.source(), start, end);
         let lenient = io.state.options.language.lenient;
-        if self.flow.text()[start..end].trim_matches([' ', '\t']) != "%" && !lenient {
+        if self.flow.here(start..end).trim_matches([' ', '\t']) != "%" && !lenient {
             io.wrong(Diag::new(Code::BadCharacter, span, "text beside `%`").help("put `%` on a line of its own"));
             return Went::On;
         }
@@ -178,7 +190,7 @@ impl Machine {
 
     fn end_of_text(&mut self, io: &mut Io) -> Went {
         if self.flow.depth() > 0 {
-            let at = self.flow.text().len();
+            let at = self.flow.end_of_text();
             let span = Span::new(self.flow.source(), at.saturating_sub(1), at);
             let help = "write M99 in its last row";
             io.wrong(Diag::new(Code::BadMacro, span, "the program ends without M99").help(help));
@@ -235,7 +247,7 @@ impl Machine {
             return;
         }
         for comment in &row.comments {
-            let text = self.flow.text().get(comment.place.0 as usize..comment.place.1 as usize).unwrap_or("").to_owned();
+            let text = row.texts.get(comment.text.range()).unwrap_or("").to_owned();
             self.said.clone_from(&text);
             io.emit(if comment.kind == CommentKind::Message { Canon::Message(text) } else { Canon::Comment(text) });
         }

@@ -3,6 +3,7 @@
 
 use super::expr::{self, Ops, Value};
 use crate::ngc::code::Comment;
+use crate::ngc::expr::Slice;
 use crate::ngc::fault::Fault;
 use crate::ngc::reader::cursor::Cursor;
 use crate::ngc::reader::squeeze::Squeezed;
@@ -72,6 +73,8 @@ pub struct Row {
     pub ops: Ops,
     /// Comments.
     pub comments: Vec<Comment>,
+    /// Their texts.
+    pub texts: String,
 }
 
 impl Row {
@@ -80,6 +83,7 @@ impl Row {
         self.settings.clear();
         self.ops.clear();
         self.comments.clear();
+        self.texts.clear();
         (self.skip, self.program, self.n, self.control) = (false, None, None, Control::None);
     }
 
@@ -104,6 +108,12 @@ impl Reader {
         row.clear();
         (row.place, row.line) = ((start as u32, (start + text.len()) as u32), line);
         self.squeezed.fill(text, start, &mut row.comments)?;
+        for comment in &mut row.comments {
+            let (from, to) = (comment.place.0 as usize - start, comment.place.1 as usize - start);
+            let first = row.texts.len() as u32;
+            row.texts.push_str(text.get(from..to).unwrap_or(""));
+            comment.text = Slice { start: first, end: row.texts.len() as u32 };
+        }
         let mut cursor = Cursor { bytes: &self.squeezed.bytes, at: &self.squeezed.at, pos: 0 };
         head(&mut cursor, row)?;
         while let Some(byte) = cursor.peek() {

@@ -12,6 +12,7 @@ use super::lenient;
 use super::lines::{Place, trimmed};
 use super::param::Name;
 use super::reader::Reader;
+use super::text;
 use files::{Files, Spot};
 use std::collections::HashMap;
 use takt_base::{Code, Diag};
@@ -181,8 +182,8 @@ impl Flow {
         if trimmed(inside).starts_with(b"%") {
             return Next::Percent(piece.range.start, piece.range.end);
         }
-        let source = self.files.source();
-        let cleaned = self.lenient.then(|| lenient::clean(&String::from_utf8_lossy(inside), source, piece.range.start)).flatten();
+        let cleaned =
+            if self.lenient { lenient::clean(&text::line(inside), self.files.source(), piece.range.start) } else { None };
         let inside = cleaned.as_ref().map_or(inside, |c| c.0.as_bytes());
         let read = self.reader.read(inside, piece.range.start, piece.line, &mut self.code);
         if let Some((_, notes)) = cleaned {
