@@ -47,7 +47,8 @@ pub struct Rough {
 pub fn beside(contour: &[Curve], radius: f64) -> Option<Vec<Curve>> {
     let mut all: Vec<Curve> = Vec::new();
     for curve in contour {
-        let mut next = if radius == 0.0 { *curve } else { offset(curve, radius, [curve.direction_at_start(), curve.direction_at_end()])? };
+        let mut next =
+            if radius == 0.0 { *curve } else { offset(curve, radius, [curve.direction_at_start(), curve.direction_at_end()])? };
         if let Some(before) = all.last_mut().filter(|_| radius != 0.0) {
             let turn = angle(before.direction_at_end(), next.direction_at_start());
             let inside = turn * radius.signum();
