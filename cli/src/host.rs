@@ -56,6 +56,9 @@ impl Cyclic for PlcHost {
     fn tick(&mut self, now: Nanos) {
         self.machine.borrow_mut().tick(now);
     }
+    fn exchange(&mut self, now: Nanos, memory: &mut [u8]) {
+        self.machine.borrow_mut().exchange(now, memory);
+    }
     fn safe_stop(&mut self) {
         self.machine.borrow_mut().safe_stop();
     }

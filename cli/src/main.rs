@@ -20,6 +20,7 @@ mod report;
 mod retain;
 mod session;
 mod subroutines;
+mod surroundings;
 mod test_report;
 mod watch;
 

@@ -3,6 +3,7 @@
 use crate::diagnostics;
 use crate::host::PlcHost;
 use crate::project::{self, Problem, Project, ProjectFile};
+use crate::surroundings;
 use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
@@ -129,14 +130,16 @@ impl Session {
         }
     }
 
-    /// The machine, reading part programs as [`Session::file`] does.
+    /// The machine, reading part programs as [`Session::file`] does. In real time parameters and tools are stored.
     pub fn machine(&self, background: Background) -> Rc<RefCell<Machine>> {
-        let (root, attached) = (self.root.clone(), self.image.attachments.clone());
-        let files = move |name: &str| match attached.iter().find(|(n, _)| n == name) {
-            Some((_, bytes)) => Ok(String::from_utf8_lossy(bytes).into_owned()),
-            None => std::fs::read(root.join(name)).map(|b| String::from_utf8_lossy(&b).into_owned()).map_err(|e| e.to_string()),
-        };
-        Rc::new(RefCell::new(Machine::new(&self.machine, Box::new(files), background)))
+        let environment = surroundings::environment(self, background == Background::Thread);
+        let machine = Machine::with_environment(&self.machine, environment, takt_motion::feeder::ngc_reader(), background);
+        Rc::new(RefCell::new(machine))
+    }
+
+    /// The folder of the project; of an image, the working folder.
+    pub fn root(&self) -> &Path {
+        &self.root
     }
 
     /// A resource on this host. Call it on the thread that will run it.
@@ -251,6 +254,7 @@ fn is_image(file: &Path) -> bool {
 /// What travels in an image: the project file and the data files of its folder.
 fn attachments(project: &Project) -> Vec<(String, Vec<u8>)> {
     let mut files = vec![(TOML.to_owned(), project.toml.clone().into_bytes())];
+    files.extend(surroundings::of_channels(&project.root, &project.keys));
     let entries = std::fs::read_dir(&project.root).into_iter().flatten().flatten().map(|e| e.path());
     let mut paths: Vec<_> =
         entries.filter(|p| p.extension().and_then(|e| e.to_str()).is_some_and(|e| ATTACHED.contains(&e))).collect();

@@ -135,6 +135,8 @@ pub trait Cyclic {
     fn period(&self) -> Option<Nanos>;
     /// One period. Runs: cyclic.
     fn tick(&mut self, now: Nanos);
+    /// Right behind each tick: the variables of the program that the host reads and writes. Runs: cyclic, never during a scan.
+    fn exchange(&mut self, _now: Nanos, _memory: &mut [u8]) {}
     /// Brings everything that moves to its safe state: after a fault or at the end of a run. Called once; ticks may go on.
     fn safe_stop(&mut self);
 }

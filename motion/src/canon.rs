@@ -197,6 +197,10 @@ pub enum Canon {
     SetAuxOutputValue(u32, f64),
     /// Extension: M66: wait for an input.
     WaitInput(Input),
+    /// Extension: the program reads variables of the PLC program, by path, when the motion before has ended.
+    ReadPlc(Vec<String>),
+    /// Extension: sets a variable of the PLC program when the motion before has ended; the path goes on.
+    SetPlc(String, f64),
     /// Extension: text for the console, the log and its file.
     Print(String),
     Log(String),

@@ -1,24 +1,69 @@
 //! The background half of a channel: file -> interpreter -> run reader -> look-ahead -> ring.
-//! Runs: background, in the caller of `tick` or in a thread of its own. What it releases depends on the program alone, so both give the
-//! same set points. Commands and events go through rings.
+//! Runs: background, in the caller of `tick` or in a thread of its own. What it releases depends on the program and on the answers of the
+//! machine alone, so both give the same set points. Commands and events go through rings.
+
+pub mod check;
+pub mod environment;
+pub mod running;
+pub mod tables;
+
+pub use environment::{ChannelHost, Environment};
 
 use crate::canon::{Position, Step};
 use crate::geometry::Point;
-use crate::lookahead::{AxisLimits, Move, Planner};
-use crate::ngc::{Interpreter, Language, Options};
-use crate::pulse::pulse_move;
-use crate::run::{Item, RunError, RunReader, Work};
-use crate::segment::{Action, ErrorNote, Mark, Planned};
+use crate::lookahead::AxisLimits;
+use crate::ngc::modal::Modal;
+use crate::ngc::{HostRef, Interpreter, Language, Options};
+use crate::run::Work;
+use crate::segment::{ErrorNote, Planned};
+use crate::sync::Answer;
+use running::{Program, Running};
 use std::sync::Arc;
+use tables::{Kept, Tables};
 use takt_base::ring::{Rx, Tx};
-use takt_base::{Code, Diag, SourceId, Sources};
+use takt_base::{Code, Diag, SourceId};
 
-/// Canonical commands of a part program, or its first error.
-pub type Steps = Box<dyn Iterator<Item = Result<Step, Box<Diag>>> + Send>;
+/// Canonical commands of a part program, or its first error. Behind a command for which [`crate::sync::waits_for_answer`] holds, the
+/// next one is asked for when the answer has been given.
+pub trait Commands: Iterator<Item = Result<Step, Box<Diag>>> + Send {
+    /// What the machine says to the command that was given out last.
+    fn answer(&mut self, _: &Answer) {}
+    /// What outlives the program, as it is behind the last command.
+    fn kept(&self) -> Option<Kept> {
+        None
+    }
+    /// Modes behind the last command.
+    fn modal(&self) -> Option<Modal> {
+        None
+    }
+    /// Value of the subroutine that returned last.
+    fn result(&self) -> f64 {
+        0.0
+    }
+    /// True if the last command came from a row of the main program.
+    fn in_main(&self) -> bool {
+        true
+    }
+}
+
+/// Commands that need no answers.
+pub struct Plain<I>(pub I);
+
+impl<I: Iterator> Iterator for Plain<I> {
+    type Item = I::Item;
+    fn next(&mut self) -> Option<I::Item> {
+        self.0.next()
+    }
+}
+
+impl<I: Iterator<Item = Result<Step, Box<Diag>>> + Send> Commands for Plain<I> {}
+
+/// See [`Commands`].
+pub type Steps = Box<dyn Commands>;
 /// Opens a part program.
 pub type Reader = Box<dyn Fn(&PartProgram) -> Steps + Send>;
 /// Reads a file by name.
-pub type Files = Box<dyn Fn(&str) -> Result<String, String> + Send>;
+pub type Files = Box<dyn Fn(&str) -> Result<String, String> + Send + Sync>;
 
 /// A part program that is to be read.
 #[derive(Clone, Debug)]
@@ -33,21 +78,63 @@ pub struct PartProgram {
     pub modes: String,
     /// Dialect, strictness and settings.
     pub language: Language,
+    /// Subroutines in files, PLC variables.
+    pub host: HostRef,
+    /// Parameters and tools.
+    pub kept: Kept,
+    /// Rows with `/` are left out.
+    pub skip_deleted: bool,
+    /// Modes to go on with, of a block that was typed in before.
+    pub modal: Option<Modal>,
 }
+
+/// Parameter with the work offset system in force.
+const WORK_SYSTEM: u16 = 5220;
 
 /// Reads RS274/NGC text.
 pub fn ngc_reader() -> Reader {
     Box::new(|program| {
-        let options = Options { start: program.start, language: program.language.clone(), ..Options::default() };
+        let options = Options {
+            start: program.start,
+            language: program.language.clone(),
+            host: program.host.clone(),
+            // The system that the configuration names is in force at the start, not the one that the last program left.
+            parameters: program.kept.parameters.iter().copied().filter(|p| p.0 != WORK_SYSTEM).collect(),
+            tools: program.kept.tools.clone(),
+            tool: program.kept.tool,
+            skip_deleted: program.skip_deleted,
+            ..Options::default()
+        };
         match options.with_modes(program.source, &program.modes) {
-            Ok(options) => Box::new(Interpreter::new(program.source, program.text.clone(), options)),
-            Err(diag) => Box::new(std::iter::once(Err(diag))),
+            Ok(options) => {
+                let interpreter = Interpreter::new(program.source, program.text.clone(), options);
+                Box::new(match &program.modal {
+                    Some(modal) => interpreter.going_on(modal),
+                    None => interpreter,
+                })
+            }
+            Err(diag) => Box::new(Plain(std::iter::once(Err(diag)))),
         }
     })
 }
 
 /// Bytes of a file name in a command: STRING\[255\].
 pub const NAME_BYTES: usize = 256;
+/// Arguments of a subroutine.
+pub const ARGS: usize = 30;
+
+/// How a program is run.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub struct How {
+    /// Line of the main program where motion starts; 0 and 1: at the top.
+    pub start_line: u32,
+    /// Rows before that line are not even read.
+    pub raw: bool,
+    /// Rows with `/` are left out.
+    pub block_skip: bool,
+    /// Feed moves take the feed of the dry run.
+    pub dry_run: bool,
+}
 
 /// From the channel.
 #[derive(Clone, Copy, Debug)]
@@ -62,12 +149,61 @@ pub enum Command {
         /// Where the axes stand.
         start: Point,
     },
+    /// Look through the loaded program without moving.
+    Check {
+        /// Number of the request.
+        request: u32,
+        /// Where the axes stand.
+        start: Point,
+        /// Moves out of the travel are errors.
+        limits: bool,
+    },
     /// Feed the loaded program.
     Run {
         /// Number of the run.
         run: u32,
         /// Where the axes stand.
         start: Point,
+        /// Start line and modes.
+        how: How,
+    },
+    /// Feed one block.
+    Block {
+        /// Number of the run.
+        run: u32,
+        /// Where the axes stand.
+        start: Point,
+        /// Text, ended by a zero byte.
+        text: [u8; NAME_BYTES],
+        /// Modes.
+        how: How,
+    },
+    /// Feed a subroutine.
+    Call {
+        /// Number of the run.
+        run: u32,
+        /// Where the axes stand.
+        start: Point,
+        /// Its name, ended by a zero byte.
+        name: [u8; NAME_BYTES],
+        /// `#1`, `#2`, ...
+        args: [f64; ARGS],
+        /// How many of them.
+        count: u8,
+        /// Modes.
+        how: How,
+    },
+    /// What the machine says to a command that waits.
+    Answer {
+        /// Number of the run.
+        run: u32,
+        /// The answer.
+        answer: Answer,
+    },
+    /// The run has come to its end.
+    Ended {
+        /// Number of the run.
+        run: u32,
     },
     /// Stop feeding.
     Abort,
@@ -75,6 +211,7 @@ pub enum Command {
 
 /// To the channel.
 #[derive(Clone, Copy, Debug)]
+#[allow(clippy::large_enum_variant)] // as above
 pub enum Event {
     /// The file is loaded.
     Loaded {
@@ -90,6 +227,24 @@ pub enum Event {
         /// Why.
         note: ErrorNote,
     },
+    /// The loaded program has been looked through.
+    Checked {
+        /// Number of the request.
+        request: u32,
+        /// The first error.
+        note: Option<ErrorNote>,
+        /// Time in seconds, extent in machine coordinates.
+        found: check::Found,
+    },
+    /// Value that the subroutine of [`Command::Call`] has returned.
+    Returned {
+        /// Number of the run.
+        run: u32,
+        /// Its value.
+        value: f64,
+    },
+    /// Parameters or tools could not be stored.
+    NotStored(ErrorNote),
 }
 
 /// What the feeder knows of its channel.
@@ -109,23 +264,32 @@ pub struct FeederConfig {
     pub modes: String,
     /// Dialect, strictness and settings.
     pub language: Language,
+    /// Folders of subroutines.
+    pub subs: Vec<String>,
+    /// File of the parameters.
+    pub parameter_file: Option<String>,
+    /// File of the tools.
+    pub tool_table: Option<String>,
+    /// Feed of the dry run in mm/s.
+    pub dry_run_mm_s: f64,
 }
 
-/// Steps read when a program is checked; a longer one is checked no further.
-const CHECKED_STEPS: usize = 2_000_000;
-
-struct Program {
-    name: String,
-    text: Arc<str>,
-}
-
-struct Running {
-    sources: Sources,
-    steps: Steps,
-    reader: RunReader,
-    planner: Planner,
-    mark: Mark,
-    ended: bool,
+impl Default for FeederConfig {
+    fn default() -> Self {
+        Self {
+            axes: AxisLimits::uniform(f64::INFINITY, f64::INFINITY),
+            work: Work::default(),
+            period_s: 0.001,
+            pulse: None,
+            check_on_load: true,
+            modes: String::new(),
+            language: Language::default(),
+            subs: Vec::new(),
+            parameter_file: None,
+            tool_table: None,
+            dry_run_mm_s: 50.0,
+        }
+    }
 }
 
 /// Feeds one channel.
@@ -136,43 +300,71 @@ pub struct Feeder {
     out: Tx<Planned>,
     program: Option<Program>,
     running: Option<Running>,
+    tables: Tables,
+    /// Modes behind the last block that was typed in.
+    modal: Option<Modal>,
+    /// What a program that is fed to its end has left, until the channel has executed it.
+    fed: Option<(u32, Option<Kept>)>,
 }
 
 impl Feeder {
     /// A feeder with nothing loaded.
     pub fn new(config: FeederConfig, commands: Rx<Command>, events: Tx<Event>, out: Tx<Planned>) -> Self {
-        Self { config, commands, events, out, program: None, running: None }
+        let tables = Tables::new(config.parameter_file.clone(), config.tool_table.clone());
+        Self { config, commands, events, out, program: None, running: None, tables, modal: None, fed: None }
     }
 
     /// Does what can be done without waiting; false if there was nothing.
-    pub fn pump(&mut self, files: &Files, reader: &Reader) -> bool {
+    pub fn pump(&mut self, environment: &Environment, reader: &Reader) -> bool {
         let mut busy = false;
         while self.may_obey()
             && let Some(command) = self.commands.pop()
         {
             busy = true;
-            self.command(&command, files, reader);
+            self.command(&command, environment, reader);
         }
         self.feed() || busy
     }
 
-    /// A command waits, and there is room for its event.
-    fn may_obey(&self) -> bool {
-        !self.commands.is_empty() && !self.events.is_full()
+    /// Stores what is not stored yet, at the end of the machine.
+    pub fn close(&mut self, environment: &Environment) {
+        let _ = self.tables.store(environment);
     }
 
-    fn command(&mut self, command: &Command, files: &Files, reader: &Reader) {
+    /// A command waits, and there is room for its events: each has two at most.
+    fn may_obey(&self) -> bool {
+        !self.commands.is_empty() && self.events.len() + 2 <= self.events.capacity()
+    }
+
+    fn command(&mut self, command: &Command, environment: &Environment, reader: &Reader) {
         match command {
-            Command::Load { request, name, start } => self.load(*request, name, start, files, reader),
-            Command::Run { run, start } => self.run(*run, start, reader),
-            Command::Abort => self.running = None,
+            Command::Load { request, name, start } => self.load(*request, name, start, environment, reader),
+            Command::Check { request, start, limits } => self.check(*request, start, *limits, environment, reader),
+            Command::Run { run, start, how } => {
+                self.modal = None;
+                let program = self.program.clone();
+                self.start(*run, start, program, how, environment, reader);
+            }
+            Command::Block { run, start, text, how } => {
+                let program = Program::of_text("block", &text_of(text));
+                self.start(*run, start, Some(program), how, environment, reader);
+            }
+            Command::Call { run, start, name, args, count, how } => {
+                let args = args.iter().take(usize::from(*count)).map(|a| format!(" [{a}]")).collect::<String>();
+                let program = Program::of_text("call", &format!("o<{}> call{args}", text_of(name)));
+                self.start(*run, start, Some(program), how, environment, reader);
+            }
+            Command::Answer { run, answer } => self.answer(*run, answer),
+            Command::Ended { run } => self.ended(*run, environment),
+            Command::Abort => {
+                (self.running, self.fed) = (None, None);
+                self.store(environment);
+            }
         }
     }
 
-    fn load(&mut self, request: u32, name: &[u8; NAME_BYTES], start: &Point, files: &Files, reader: &Reader) {
-        let end = name.iter().position(|&b| b == 0).unwrap_or(NAME_BYTES);
-        let name = String::from_utf8_lossy(&name[..end]).into_owned();
-        let event = match self.read(name, start, files, reader) {
+    fn load(&mut self, request: u32, name: &[u8; NAME_BYTES], start: &Point, environment: &Environment, reader: &Reader) {
+        let event = match self.read(text_of(name), start, environment, reader) {
             Ok((program, lines)) => {
                 self.program = Some(program);
                 Event::Loaded { request, lines }
@@ -183,44 +375,82 @@ impl Feeder {
         let _ = self.events.push(event);
     }
 
-    fn read(&self, name: String, start: &Point, files: &Files, reader: &Reader) -> Result<(Program, u32), Box<ErrorNote>> {
-        let text = files(&name).map_err(|why| Box::new(ErrorNote::new(Code::ProgramFile, 0, 0, &format!("{name}: {why}"))))?;
+    fn read(
+        &mut self,
+        name: String,
+        start: &Point,
+        environment: &Environment,
+        reader: &Reader,
+    ) -> Result<(Program, u32), Box<ErrorNote>> {
+        let text = (environment.files)(&name)
+            .map_err(|why| Box::new(ErrorNote::new(Code::ProgramFile, 0, 0, &format!("{name}: {why}"))))?;
+        self.tables.refresh(environment)?;
         let program = Program { name, text: text.into() };
         let lines = program.text.lines().count() as u32;
         if self.config.check_on_load {
-            self.check(&program, start, reader)?;
+            let opened = program.open(&self.config, start, &How::default(), environment, reader, &self.tables.kept, None);
+            check::first_error(opened, &self.config, start, false)?;
         }
         Ok((program, lines))
     }
 
-    /// The first error of the program, whatever the position of the machine. Travel is checked when it runs.
-    fn check(&self, program: &Program, start: &Point, reader: &Reader) -> Result<(), Box<ErrorNote>> {
-        let (sources, steps) = open(program, start, reader, &self.config);
-        let work = Work { exists: self.config.work.exists, ..Work::default() };
-        let mut run = RunReader::new(work, *start);
-        for step in steps.take(CHECKED_STEPS) {
-            let step = step.map_err(|diag| Box::new(note_of_diag(&diag, &sources)))?;
-            let mark = Mark::from(&step);
-            run.read(&step, &mut |_, _| {}).map_err(|e| Box::new(note_of_error(&e, mark)))?;
-        }
-        Ok(())
+    fn check(&mut self, request: u32, start: &Point, limits: bool, environment: &Environment, reader: &Reader) {
+        let (note, found) = match &self.program {
+            None => (Some(ErrorNote::new(Code::ProgramNotLoaded, 0, 0, Code::ProgramNotLoaded.title())), check::Found::default()),
+            Some(program) => {
+                let how = How::default();
+                let open = || program.open(&self.config, start, &how, environment, reader, &self.tables.kept, None);
+                match check::first_error(open(), &self.config, start, limits) {
+                    Err(note) => (Some(*note), check::Found::default()),
+                    Ok(()) => (None, check::measure(open(), &self.config, start)),
+                }
+            }
+        };
+        let _ = self.events.push(Event::Checked { request, note, found });
     }
 
-    fn run(&mut self, run: u32, start: &Point, reader: &Reader) {
-        self.running = self.program.as_ref().map(|program| {
-            let (sources, steps) = open(program, start, reader, &self.config);
-            Running {
-                sources,
-                steps,
-                reader: RunReader::new(self.config.work, *start),
-                planner: Planner::new(self.config.axes, self.config.period_s, run),
-                mark: Mark::default(),
-                ended: false,
-            }
+    fn start(
+        &mut self,
+        run: u32,
+        start: &Point,
+        program: Option<Program>,
+        how: &How,
+        environment: &Environment,
+        reader: &Reader,
+    ) {
+        self.fed = None;
+        let config = &self.config;
+        let modal = self.modal.as_ref();
+        self.running = program.map(|program| {
+            let opened = program.open(config, start, how, environment, reader, &self.tables.kept, modal);
+            Running::new(run, opened, config, start, how)
         });
     }
 
-    /// Feeds until the ring is full, the program has ended, or there is a new command.
+    fn answer(&mut self, run: u32, answer: &Answer) {
+        if let Some(running) = &mut self.running
+            && running.run == run
+            && let Some(kept) = running.answer(answer)
+        {
+            self.tables.kept = kept;
+        }
+    }
+
+    /// The channel has executed everything: what the program has left counts from now on.
+    fn ended(&mut self, run: u32, environment: &Environment) {
+        if let Some((_, Some(kept))) = self.fed.take().filter(|(fed, _)| *fed == run) {
+            self.tables.kept = kept;
+        }
+        self.store(environment);
+    }
+
+    fn store(&mut self, environment: &Environment) {
+        if let Err(note) = self.tables.store(environment) {
+            let _ = self.events.push(Event::NotStored(*note));
+        }
+    }
+
+    /// Feeds until the ring is full, the program waits or has ended, or there is a new command.
     fn feed(&mut self) -> bool {
         let mut busy = false;
         loop {
@@ -233,7 +463,10 @@ impl Feeder {
                 }
             }
             if running.ended {
-                self.running = None;
+                self.fed_all();
+                return busy;
+            }
+            if running.waits {
                 return busy;
             }
             running.advance(&self.config);
@@ -242,100 +475,22 @@ impl Feeder {
             }
         }
     }
-}
 
-impl Running {
-    /// Reads one command.
-    fn advance(&mut self, config: &FeederConfig) {
-        match self.steps.next() {
-            Some(Ok(step)) => {
-                self.mark = Mark::from(&step);
-                if let Err(error) = self.read(&step, config) {
-                    self.fail(note_of_error(&error, self.mark));
-                }
-            }
-            Some(Err(diag)) => self.fail(note_of_diag(&diag, &self.sources)),
-            None => self.end(config),
+    fn fed_all(&mut self) {
+        let Some(running) = self.running.take() else { return };
+        if running.failed {
+            return;
+        }
+        self.fed = Some((running.run, running.steps.kept()));
+        if running.typed {
+            self.modal = running.steps.modal();
+            // An event can always be had: the channel empties its ring in every tick.
+            let _ = self.events.push(Event::Returned { run: running.run, value: running.steps.result() });
         }
     }
-
-    fn read(&mut self, step: &Step, config: &FeederConfig) -> Result<(), RunError> {
-        let (planner, mut failed) = (&mut self.planner, None);
-        let mut emit = |mark, item| match put(planner, config, mark, item) {
-            Ok(end) => self.ended |= end,
-            Err(error) => failed = failed.take().or(Some(error)),
-        };
-        self.reader.read(step, &mut emit)?;
-        failed.map_or(Ok(()), Err)
-    }
-
-    /// Everything before the wrong block is executed, then the channel stops.
-    fn fail(&mut self, note: ErrorNote) {
-        self.planner.push(Mark { line: note.line, ..self.mark }, Action::Fault(note));
-        self.ended = true;
-    }
-
-    fn end(&mut self, config: &FeederConfig) {
-        let planner = &mut self.planner;
-        self.reader.finish(&mut |mark, item| {
-            let _ = put(planner, config, mark, item);
-        });
-        self.planner.push(self.mark, Action::End { m: 0 });
-        self.ended = true;
-    }
 }
 
-/// Hands an item on; true for the end of the program.
-fn put(planner: &mut Planner, config: &FeederConfig, mark: Mark, item: Item) -> Result<bool, RunError> {
-    match (item, config.pulse) {
-        (Item::Move(m), Some((blu_mm, batch_max))) => {
-            let pulses = pulses(&m, config, blu_mm, batch_max)?;
-            planner.push(mark, Action::Pulse(pulses));
-        }
-        (Item::Move(m), None) => planner.push_move(mark, m),
-        (Item::Action(action), _) => {
-            planner.push(mark, action);
-            return Ok(matches!(action, Action::End { .. }));
-        }
-    }
-    Ok(false)
-}
-
-/// PC-13: what does not fit the tick is refused, never slowed down.
-fn pulses(m: &Move, config: &FeederConfig, blu_mm: f64, batch_max: u32) -> Result<crate::pulse::PulseMove, RunError> {
-    let slowest = (0..6).filter(|&i| m.path.end[i] != m.path.start[i]).map(|i| config.axes.v[i]).fold(f64::INFINITY, f64::min);
-    // Positioning has no feed of its own: it is as fast as axes and tick allow.
-    let fastest = slowest.min(f64::from(batch_max) * blu_mm / config.period_s);
-    let speed = if m.rapid { m.feed.min(fastest) } else { m.feed };
-    let pulses = pulse_move(&m.path, m.rapid, speed, blu_mm).map_err(|code| RunError {
-        code,
-        text: match code {
-            Code::UnknownCode => "a helix can't be made of reference pulses".to_owned(),
-            _ => code.title().to_owned(),
-        },
-    })?;
-    if pulses.frequency * config.period_s > f64::from(batch_max) * (1.0 + 1e-9) {
-        let text = format!("{} pulses a second are more than {batch_max} a tick", pulses.frequency.round());
-        return Err(RunError { code: Code::ParameterOutOfRange, text });
-    }
-    Ok(pulses)
-}
-
-fn open(program: &Program, start: &Point, reader: &Reader, config: &FeederConfig) -> (Sources, Steps) {
-    let mut sources = Sources::new();
-    let source = sources.add(program.name.clone(), &*program.text);
-    let start = (*start).into();
-    let FeederConfig { modes, language, .. } = config;
-    let program = PartProgram { source, text: program.text.clone(), start, modes: modes.clone(), language: language.clone() };
-    let steps = reader(&program);
-    (sources, steps)
-}
-
-fn note_of_error(error: &RunError, mark: Mark) -> ErrorNote {
-    ErrorNote::new(error.code, mark.line, 1, &error.text)
-}
-
-fn note_of_diag(diag: &Diag, sources: &Sources) -> ErrorNote {
-    let at = sources.line_col(diag.span.source, diag.span.start);
-    ErrorNote::new(diag.code, at.line, at.column, &diag.message)
+fn text_of(bytes: &[u8; NAME_BYTES]) -> String {
+    let end = bytes.iter().position(|&b| b == 0).unwrap_or(NAME_BYTES);
+    String::from_utf8_lossy(&bytes[..end]).into_owned()
 }

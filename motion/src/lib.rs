@@ -16,6 +16,7 @@ pub mod natives;
 pub mod ngc;
 pub mod plan;
 pub mod plant;
+pub mod plc;
 pub mod plcopen;
 pub mod print;
 pub mod profile;
@@ -23,8 +24,10 @@ pub mod pulse;
 pub mod run;
 pub mod segment;
 pub mod servo;
+pub mod spindle;
 pub mod stats;
 pub mod svg;
+pub mod sync;
 pub mod toolpath;
 
 pub use machine::{Background, Machine, MachineConfig};

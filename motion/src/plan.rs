@@ -4,7 +4,7 @@
 use crate::canon::Step;
 use crate::execution::{Demand, PathExecutor, QUEUE, Reached};
 use crate::geometry::{AXES, Point};
-use crate::lookahead::{AxisLimits, Planner};
+use crate::lookahead::{AxisLimits, Move, Planner};
 use crate::run::{Item, RunError, RunReader, Work};
 use crate::segment::{Action, Mark, Planned};
 use takt_base::ring::ring;
@@ -111,6 +111,13 @@ fn put(planner: &mut Planner, config: &PlanConfig, report: &mut PlanReport, mark
             report.length_mm += m.path.length;
             report.ideal_time_s += m.path.length / if m.rapid { m.feed.min(fastest) } else { m.feed };
             planner.push_move(mark, m);
+        }
+        Item::Special(m, _) => {
+            report.blocks += 1;
+            report.length_mm += m.path.length;
+            report.ideal_time_s += m.path.length / m.feed;
+            // Nobody answers, and nothing turns: it is planned as if it were a move.
+            planner.push_move(mark, Move { exact_stop: true, ..m });
         }
         Item::Action(action) => planner.push(mark, action),
     }

@@ -79,6 +79,8 @@ fn parts(command: &Canon) -> (&'static str, String) {
         Canon::SetMotionOutputValue(i, v) => ("SET_MOTION_OUTPUT_VALUE", format!("{i}, {}", number(*v))),
         Canon::SetAuxOutputValue(i, v) => ("SET_AUX_OUTPUT_VALUE", format!("{i}, {}", number(*v))),
         Canon::WaitInput(i) => ("WAIT_INPUT", format!("{}, {}, {}, {}", i.number, u8::from(i.analog), i.wait, number(i.timeout))),
+        Canon::ReadPlc(names) => ("READ_PLC", names.iter().map(|n| quoted(n)).collect::<Vec<_>>().join(", ")),
+        Canon::SetPlc(name, value) => ("SET_PLC", format!("{}, {}", quoted(name), number(*value))),
         Canon::Print(text) => ("PRINT", quoted(text)),
         Canon::Log(text) => ("LOG", quoted(text)),
         Canon::LogOpen(text) => ("LOGOPEN", quoted(text)),
@@ -188,6 +190,8 @@ mod tests {
         all.extend([Direction::Clockwise, Direction::Counterclockwise].map(|d| Canon::OrientSpindle(359.5, d)));
         all.extend(["", "a, b) \"c\" \\ \n", "(", "ä"].map(|t| Canon::Comment(t.into())));
         all.push(Canon::Message(" hello".into()));
+        all.push(Canon::ReadPlc(vec!["speed".into(), "main.levels[2]".into()]));
+        all.push(Canon::SetPlc("main.level".into(), -2.5));
         all.extend(
             [(None, None), (Some(1.5), None), (None, Some(-2.0)), (Some(1.0), Some(2.0))].map(|(p, q)| Canon::UserMCode {
                 code: 110,

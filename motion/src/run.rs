@@ -6,8 +6,18 @@ use crate::canon::{Arc, Canon, MotionMode, Plane, Position, ProgramEnd, Step};
 use crate::geometry::{AXES, Path, Point};
 use crate::lookahead::Move;
 use crate::ngc::modal::mm_per_unit;
-use crate::segment::{Action, AuxCodes, Mark};
+use crate::plc::Symbols;
+use crate::segment::{Action, AuxCodes, Mark, Switch};
+use crate::sync::Special;
+use outputs::Output;
+use spindle::SpindleState;
 use takt_base::Code;
+
+mod codes;
+mod curve;
+pub mod outputs;
+mod search;
+mod spindle;
 
 /// What the machine can do, as far as a part program can ask for too much.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -33,6 +43,8 @@ impl Default for Work {
 pub enum Item {
     /// Something that moves.
     Move(Move),
+    /// Something that moves from rest to rest and does more than that.
+    Special(Move, Special),
     /// Anything else.
     Action(Action),
 }
@@ -55,7 +67,7 @@ impl std::fmt::Display for RunError {
 impl std::error::Error for RunError {}
 
 /// The state that canonical commands build on.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct RunReader {
     work: Work,
     /// Machine position of the controlled point: mm, degrees.
@@ -72,6 +84,17 @@ pub struct RunReader {
     traverse_mm_s: f64,
     /// Codes of the block at hand.
     aux: Option<(Mark, AuxCodes)>,
+    /// Place of the command at hand.
+    mark: Mark,
+    /// S, M3, G96, G95, G33.
+    spindle: SpindleState,
+    /// M62, M63, M67: they go with the next move.
+    pending: Vec<Output>,
+    /// Feed of the dry run in mm/s.
+    dry_run: Option<f64>,
+    symbols: Option<std::sync::Arc<dyn Symbols>>,
+    /// Codes that a block search has passed.
+    passed: search::Passed,
 }
 
 /// Where the items go.
@@ -92,7 +115,28 @@ impl RunReader {
             feed_mm_s: 0.0,
             traverse_mm_s: f64::INFINITY,
             aux: None,
+            mark: Mark::default(),
+            spindle: SpindleState::default(),
+            pending: Vec::new(),
+            dry_run: None,
+            symbols: None,
+            passed: search::Passed::default(),
         }
+    }
+
+    /// With the variables of a PLC program.
+    pub fn with_symbols(self, symbols: Option<std::sync::Arc<dyn Symbols>>) -> Self {
+        Self { symbols, ..self }
+    }
+
+    /// Feed moves at `mm_s`, whatever F says (R1-85).
+    pub fn with_dry_run(self, mm_s: f64) -> Self {
+        Self { dry_run: Some(mm_s), ..self }
+    }
+
+    /// The machine stands here: behind a probe.
+    pub fn stand_at(&mut self, position: Point) {
+        self.position = position;
     }
 
     /// Machine position after everything read so far.
@@ -103,9 +147,10 @@ impl RunReader {
     /// Reads one command; what it amounts to goes to `emit`.
     pub fn read(&mut self, step: &Step, emit: Emit) -> Result<(), RunError> {
         let mark = Mark::from(step);
-        if self.aux.is_some_and(|(m, _)| m.block != mark.block) {
+        if self.mark.block != mark.block {
             self.flush_aux(emit);
         }
+        self.mark = mark;
         match &step.command {
             Canon::StraightTraverse(p) => self.straight(mark, p, true, emit),
             Canon::StraightFeed(p) => self.straight(mark, p, false, emit),
@@ -117,12 +162,19 @@ impl RunReader {
             Canon::ProgramEnd(end) => self.end(mark, *end, emit),
             Canon::EnableFeedOverride => self.action(mark, Action::FeedOverride(true), emit),
             Canon::DisableFeedOverride => self.action(mark, Action::FeedOverride(false), emit),
-            Canon::StraightProbe(..) => Err(unsupported("probing (G38)")),
-            Canon::RigidTap(_) => Err(unsupported("rigid tapping (G33.1)")),
-            Canon::NurbsFeed(_) => Err(unsupported("a NURBS")),
-            Canon::WaitInput(_) => Err(unsupported("waiting for an input (M66)")),
-            Canon::EnableAdaptiveFeed => Err(unsupported("adaptive feed (M52)")),
-            Canon::StartSpeedFeedSynch | Canon::StartSpeedFeedSync(_) => Err(unsupported("motion in step with the spindle")),
+            Canon::StraightProbe(to, probe) => self.probe(mark, to, *probe, emit),
+            Canon::RigidTap(to) => self.tap(mark, to, emit),
+            Canon::NurbsFeed(nurbs) => self.nurbs(mark, nurbs, emit),
+            Canon::WaitInput(input) => self.action(mark, Action::WaitInput(outputs::checked(*input)?), emit),
+            Canon::ReadPlc(names) => self.read_plc(mark, names, emit),
+            Canon::SetPlc(name, value) => self.set_plc(mark, name, *value, emit),
+            Canon::EnableAdaptiveFeed => self.action(mark, Action::Switch(Switch::Adaptive, true), emit),
+            Canon::DisableAdaptiveFeed => self.action(mark, Action::Switch(Switch::Adaptive, false), emit),
+            Canon::EnableFeedHold => self.action(mark, Action::Switch(Switch::FeedHold, true), emit),
+            Canon::DisableFeedHold => self.action(mark, Action::Switch(Switch::FeedHold, false), emit),
+            Canon::EnableSpeedOverride => self.action(mark, Action::Switch(Switch::Spindle, true), emit),
+            Canon::DisableSpeedOverride => self.action(mark, Action::Switch(Switch::Spindle, false), emit),
+            Canon::StartSpeedFeedSynch => Err(unsupported("motion in step with the spindle without a pitch")),
             command if self.set_state(command)? => Ok(()),
             command => self.auxiliary(mark, command, emit),
         }
@@ -144,8 +196,10 @@ impl RunReader {
                 let (sin, cos) = libm::sincos(degrees.to_radians());
                 self.rotation = (*degrees, sin, cos);
             }
-            Canon::SetFeedMode(true) => return Err(unsupported("feed a revolution (G95)")),
-            Canon::SetSpindleMode(Some(_)) => return Err(unsupported("constant surface speed (G96)")),
+            Canon::SetFeedMode(per_rev) => self.spindle.per_rev = *per_rev,
+            Canon::SetSpindleMode(max) => self.spindle.set_mode(*max),
+            Canon::StartSpeedFeedSync(pitch) => self.spindle.start_sync(pitch * self.unit_mm),
+            Canon::StopSpeedFeedSynch => self.spindle.stop_sync(),
             Canon::SetFeedRate(rate) => self.feed_mm_s = rate * self.unit_mm / 60.0,
             Canon::SetTraverseRate(rate) if *rate > 0.0 => self.traverse_mm_s = rate * self.unit_mm / 60.0,
             Canon::SetMotionControlMode(mode) => self.mode = *mode,
@@ -155,8 +209,6 @@ impl RunReader {
             Canon::InitCanon
             | Canon::EndCanon
             | Canon::SetTraverseRate(_)
-            | Canon::SetFeedMode(_)
-            | Canon::SetSpindleMode(_)
             | Canon::SetNaivecamTolerance(_)
             | Canon::SetG5xOffset(..)
             | Canon::SetG92Offset(_)
@@ -170,15 +222,9 @@ impl RunReader {
             | Canon::LogAppend(_)
             | Canon::LogClose
             | Canon::WaitOrientComplete(_)
-            | Canon::DisableAdaptiveFeed
-            | Canon::EnableFeedHold
-            | Canon::DisableFeedHold
             | Canon::SetFeedReference(_)
-            | Canon::StopSpeedFeedSynch
             | Canon::Comment(_)
-            | Canon::Message(_)
-            | Canon::DisableSpeedOverride
-            | Canon::EnableSpeedOverride => {}
+            | Canon::Message(_) => {}
             _ => return Ok(false),
         }
         Ok(true)
@@ -245,17 +291,39 @@ impl RunReader {
 
     fn go(&mut self, mark: Mark, path: Path, rapid: bool, emit: Emit) -> Result<(), RunError> {
         self.check(&path)?;
-        let feed = if rapid { self.traverse_mm_s } else { self.feed_mm_s };
-        if (feed.is_nan() || feed <= 0.0) && path.length > 0.0 {
-            return Err(RunError { code: Code::NoFeed, text: Code::NoFeed.title().to_owned() });
-        }
+        let special = if rapid || self.dry_run.is_some() { None } else { self.spindle.thread() };
+        let (feed, per_rev) = match special {
+            Some(_) => (self.nominal(&path)?, 0.0),
+            None => self.feed(&path, rapid)?,
+        };
         self.flush_aux(emit);
         self.position = path.end;
         if path.length > 0.0 {
+            self.flush_outputs(mark, emit);
             let exact_stop = self.mode == MotionMode::ExactStop;
-            emit(mark, Item::Move(Move { path, feed, rapid, exact_stop }));
+            let m = Move { path, feed, rapid, exact_stop, per_rev };
+            self.spindle.moved(special.is_some());
+            emit(mark, special.map_or(Item::Move(m), |s| Item::Special(m, s)));
         }
         Ok(())
+    }
+
+    /// Feed in mm/s, and mm a revolution if it depends on the spindle.
+    fn feed(&self, path: &Path, rapid: bool) -> Result<(f64, f64), RunError> {
+        let (feed, per_rev) = match (rapid, self.dry_run) {
+            (true, _) => (self.traverse_mm_s, 0.0),
+            (false, Some(dry_run)) => (dry_run, 0.0),
+            // F of G95 was divided by 60 like any other.
+            (false, None) if self.spindle.per_rev => {
+                let per_rev = self.feed_mm_s * 60.0;
+                (per_rev * self.fastest(path)?, per_rev)
+            }
+            (false, None) => (self.feed_mm_s, 0.0),
+        };
+        if (feed.is_nan() || feed <= 0.0) && path.length > 0.0 {
+            return Err(RunError { code: Code::NoFeed, text: Code::NoFeed.title().to_owned() });
+        }
+        Ok((feed, per_rev))
     }
 
     fn check(&self, path: &Path) -> Result<(), RunError> {
@@ -305,77 +373,6 @@ impl RunReader {
         };
         self.action(mark, Action::End { m }, emit)
     }
-
-    fn auxiliary(&mut self, mark: Mark, command: &Canon, emit: Emit) -> Result<(), RunError> {
-        match command {
-            Canon::SetSpindleSpeed(s) => self.add(mark, true, emit, |c| c.s = Some(*s)),
-            Canon::SelectTool(t) => self.add(mark, false, emit, |c| c.t = Some(*t)),
-            Canon::UserMCode { code, p, q } => {
-                let words = [p.unwrap_or(0.0), q.unwrap_or(0.0)];
-                self.add_m(mark, u16::try_from(*code).unwrap_or(u16::MAX), words, emit);
-            }
-            Canon::ChangeToolNumber(tool) => self.add_m(mark, 61, [0.0, f64::from(*tool)], emit),
-            Canon::SetMotionOutputBit(i) => self.add_m(mark, 62, [f64::from(*i), 0.0], emit),
-            Canon::ClearMotionOutputBit(i) => self.add_m(mark, 63, [f64::from(*i), 0.0], emit),
-            Canon::SetAuxOutputBit(i) => self.add_m(mark, 64, [f64::from(*i), 0.0], emit),
-            Canon::ClearAuxOutputBit(i) => self.add_m(mark, 65, [f64::from(*i), 0.0], emit),
-            Canon::SetMotionOutputValue(i, v) => self.add_m(mark, 67, [f64::from(*i), *v], emit),
-            Canon::SetAuxOutputValue(i, v) => self.add_m(mark, 68, [f64::from(*i), *v], emit),
-            Canon::OrientSpindle(angle, _) => self.add_m(mark, 19, [*angle, 0.0], emit),
-            other => {
-                if let Some(code) = m_code(other) {
-                    self.add_m(mark, code, [0.0; 2], emit);
-                }
-            }
-        }
-        Ok(())
-    }
-
-    fn add_m(&mut self, mark: Mark, code: u16, words: [f64; 2], emit: Emit) {
-        if mark.block == 0 || self.aux.is_some_and(|(_, c)| c.m[..usize::from(c.m_count)].contains(&code)) {
-            return;
-        }
-        if self.aux.is_some_and(|(_, c)| usize::from(c.m_count) == c.m.len()) {
-            self.flush_aux(emit);
-        }
-        self.add(mark, !matches!(code, 7..=9), emit, |codes| {
-            let i = usize::from(codes.m_count);
-            codes.m[i] = code;
-            codes.m_param[i] = words;
-            codes.m_count += 1;
-        });
-    }
-
-    /// Codes of a block go out together unless their sync classes differ.
-    fn add(&mut self, mark: Mark, wait: bool, emit: Emit, put: impl FnOnce(&mut AuxCodes)) {
-        let wait = wait && self.work.handshake;
-        if self.aux.is_some_and(|(_, c)| c.wait != wait) {
-            self.flush_aux(emit);
-        }
-        let (_, codes) = self.aux.get_or_insert((mark, AuxCodes { wait, ..AuxCodes::default() }));
-        put(codes);
-    }
-
-    fn flush_aux(&mut self, emit: Emit) {
-        if let Some((mark, codes)) = self.aux.take() {
-            emit(mark, Item::Action(Action::Aux(codes)));
-        }
-    }
-}
-
-/// The M code that a canonical command came from.
-fn m_code(command: &Canon) -> Option<u16> {
-    Some(match command {
-        Canon::StartSpindleClockwise => 3,
-        Canon::StartSpindleCounterclockwise => 4,
-        Canon::StopSpindleTurning => 5,
-        Canon::ChangeTool(_) => 6,
-        Canon::MistOn => 7,
-        Canon::FloodOn => 8,
-        Canon::MistOff | Canon::FloodOff => 9,
-        Canon::PalletShuttle => 60,
-        _ => return None,
-    })
 }
 
 /// CM-62, CM-63. The interpreter knows the tolerance of its dialect; this keeps wild arcs out whoever made the commands.
@@ -395,129 +392,4 @@ fn unsupported(what: &str) -> RunError {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::canon::Units;
-
-    fn read(work: Work, commands: &[(u32, Canon)]) -> Result<Vec<Item>, RunError> {
-        let mut reader = RunReader::new(work, [0.0; 6]);
-        let mut items = Vec::new();
-        for (block, command) in commands {
-            let step = Step { block: *block, line: *block, n: None, command: command.clone() };
-            reader.read(&step, &mut |_, item| items.push(item))?;
-        }
-        reader.finish(&mut |_, item| items.push(item));
-        Ok(items)
-    }
-
-    fn at(x: f64, y: f64, z: f64) -> Position {
-        Position { x, y, z, ..Position::default() }
-    }
-
-    fn end(item: &Item) -> Point {
-        let Item::Move(m) = item else { panic!("{item:?} is no move") };
-        m.path.end
-    }
-
-    /// CM-T4, CM-T5, CM-T6: offsets and units renumber; nothing moves.
-    #[test]
-    fn units_and_offsets() {
-        let items = read(
-            Work::default(),
-            &[
-                (1, Canon::StraightTraverse(at(100., 50., 0.))),
-                (2, Canon::SetOriginOffsets(at(10., 20., 0.))),
-                (3, Canon::StraightTraverse(at(0., 0., 5.))),
-                (4, Canon::UseLengthUnits(Units::Inches)),
-                (4, Canon::UseToolLengthOffset(1.0)),
-                (5, Canon::StraightTraverse(at(1., 0., 0.))),
-            ],
-        )
-        .unwrap();
-        assert_eq!(end(&items[1])[..3], [10., 20., 5.]);
-        assert_eq!(end(&items[2])[..3], [35.4, 20., 25.4]);
-    }
-
-    /// CM-T9: in the plane XZ the first axis is Z, the second X.
-    #[test]
-    fn plane_xz() {
-        let arc = Arc { first_end: 0., second_end: 1., first_axis: 0., second_axis: 0., rotation: 1, ..Arc0::ARC };
-        let items = read(
-            Work::default(),
-            &[
-                (1, Canon::StraightTraverse(at(0., 0., 1.))),
-                (2, Canon::SelectPlane(Plane::Xz)),
-                (2, Canon::SetFeedRate(60.)),
-                (2, Canon::ArcFeed(arc)),
-            ],
-        )
-        .unwrap();
-        let Item::Move(m) = items[1] else { panic!() };
-        assert!((m.path.length - std::f64::consts::FRAC_PI_2).abs() < 1e-12);
-        assert_eq!(m.path.end[..3], [1., 0., 0.]);
-        assert_eq!(m.feed, 1.0);
-    }
-
-    struct Arc0;
-    impl Arc0 {
-        const ARC: Arc = Arc {
-            first_end: 0.,
-            second_end: 0.,
-            first_axis: 0.,
-            second_axis: 0.,
-            rotation: 0,
-            axis_end_point: 0.,
-            a: 0.,
-            b: 0.,
-            c: 0.,
-        };
-    }
-
-    /// Scenario S39: codes of a block share a strobe, unless one waits and the other does not.
-    #[test]
-    fn codes_of_a_block_go_together() {
-        let work = Work { handshake: true, ..Work::default() };
-        let items = read(
-            work,
-            &[
-                (1, Canon::SetSpindleSpeed(500.)),
-                (1, Canon::StartSpindleClockwise),
-                (1, Canon::FloodOn),
-                (2, Canon::MistOff),
-                (2, Canon::FloodOff),
-                (3, Canon::StopSpindleTurning),
-                (3, Canon::ProgramEnd(ProgramEnd::M30)),
-            ],
-        )
-        .unwrap();
-        let aux: Vec<_> = items
-            .iter()
-            .filter_map(|i| if let Item::Action(Action::Aux(c)) = i { Some((c.m, c.m_count, c.s, c.wait)) } else { None })
-            .collect();
-        assert_eq!(
-            aux,
-            [
-                ([3, 0, 0, 0], 1, Some(500.), true),
-                ([8, 0, 0, 0], 1, None, false),
-                ([9, 0, 0, 0], 1, None, false),
-                ([5, 0, 0, 0], 1, None, false)
-            ]
-        );
-    }
-
-    #[test]
-    fn what_the_machine_cannot_do() {
-        let mut work = Work::default();
-        work.exists[5] = false;
-        work.max[0] = 100.0;
-        let code = |commands: &[(u32, Canon)]| read(work, commands).unwrap_err().code;
-        let rotary = Position { c: 1.0, ..Position::default() };
-        assert_eq!(code(&[(1, Canon::StraightTraverse(rotary))]), Code::UnknownReference);
-        assert_eq!(code(&[(1, Canon::StraightTraverse(at(100.1, 0., 0.)))]), Code::OutsideLimits);
-        assert_eq!(code(&[(1, Canon::StraightFeed(at(1., 0., 0.)))]), Code::NoFeed);
-        assert_eq!(code(&[(1, Canon::StraightTraverse(at(f64::NAN, 0., 0.)))]), Code::OutsideLimits);
-        // CM-T10
-        let arc = Arc { first_end: 1., first_axis: 5., rotation: 0, ..Arc0::ARC };
-        assert_eq!(code(&[(1, Canon::SetFeedRate(1.)), (1, Canon::ArcFeed(arc))]), Code::RadiusMismatch);
-    }
-}
+mod tests;

@@ -1,10 +1,14 @@
 //! What passes the ring from look-ahead to execution.
 //! Runs: both. Everything is `Copy` and of fixed size: the cyclic side neither allocates nor frees.
 
-use crate::canon::Step;
+use crate::canon::{Input, Step};
 use crate::geometry::Path;
+use crate::plc::Variable;
 use crate::profile::Profile;
 use crate::pulse::PulseMove;
+use crate::run::outputs::Output;
+use crate::spindle::SpindleCommand;
+use crate::sync::{Reads, Special};
 use takt_base::Code;
 
 /// Where in the part program something comes from.
@@ -37,6 +41,19 @@ pub struct Segment {
     pub feed: f64,
     /// Positioning move: the rapid override counts.
     pub rapid: bool,
+    /// mm a revolution of the spindle, which caps the speed (G95); 0: none.
+    pub per_rev: f64,
+}
+
+/// Switches that a part program turns on and off.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Switch {
+    /// M52.
+    Adaptive,
+    /// M53.
+    FeedHold,
+    /// M51.
+    Spindle,
 }
 
 /// M, S and T codes of one block that are shown together (scenario S39).
@@ -96,6 +113,8 @@ impl ErrorNote {
 pub enum Action {
     /// Move with planned speed.
     Move(Segment),
+    /// The same from rest to rest with a probe or in step with the spindle.
+    Special(Segment, Special),
     /// Reference pulses.
     Pulse(PulseMove),
     /// Axes still for this many seconds.
@@ -104,6 +123,18 @@ pub enum Action {
     Aux(AuxCodes),
     /// Obey the feed override (M48) or not (M49).
     FeedOverride(bool),
+    /// Other switches.
+    Switch(Switch, bool),
+    /// Speed and direction of the spindle.
+    Spindle(SpindleCommand),
+    /// An output gets a value.
+    Output(Output),
+    /// A variable of the PLC program gets a value.
+    Write(Variable, f64),
+    /// The program waits for variables of the PLC program.
+    Read(Reads),
+    /// The program waits for an input.
+    WaitInput(Input),
     /// M0 or, with `optional`, M1.
     ProgramStop {
         /// M1.
@@ -123,9 +154,26 @@ impl Action {
     pub fn is_stop(&self) -> bool {
         match self {
             Action::Aux(codes) => codes.wait,
-            Action::Dwell(_) | Action::ProgramStop { .. } | Action::End { .. } | Action::Fault(_) => true,
-            Action::Move(_) | Action::Pulse(_) | Action::FeedOverride(_) => false,
+            Action::Special(..)
+            | Action::Dwell(_)
+            | Action::Read(_)
+            | Action::WaitInput(_)
+            | Action::ProgramStop { .. }
+            | Action::End { .. }
+            | Action::Fault(_) => true,
+            Action::Move(_)
+            | Action::Pulse(_)
+            | Action::FeedOverride(_)
+            | Action::Switch(..)
+            | Action::Spindle(_)
+            | Action::Output(_)
+            | Action::Write(..) => false,
         }
+    }
+
+    /// True if nothing comes behind it before the machine has answered.
+    pub fn is_question(&self) -> bool {
+        matches!(self, Action::Read(_) | Action::WaitInput(_) | Action::Special(_, Special::Probe(_)))
     }
 }
 

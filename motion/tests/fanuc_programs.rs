@@ -525,7 +525,17 @@ fn long_and_wrong_programs() {
 fn a_channel_reads_its_dialect() {
     let (source, start, modes) = (SourceId(0), Position::default(), "G91".to_owned());
     let language = Language::new("fanuc-mill", false, &[]).unwrap();
-    let program = PartProgram { source, text: "O1\n#1=5\nG0 X#1\nX#1\nM30".into(), start, modes, language };
+    let program = PartProgram {
+        source,
+        text: "O1\n#1=5\nG0 X#1\nX#1\nM30".into(),
+        start,
+        modes,
+        language,
+        host: Default::default(),
+        kept: Default::default(),
+        skip_deleted: false,
+        modal: None,
+    };
     let steps: Vec<Step> = ngc_reader()(&program).map(|s| s.unwrap()).collect();
     assert_eq!(ends(&steps), [[5.0, 0.0, 0.0], [10.0, 0.0, 0.0]]);
 }

@@ -4,10 +4,12 @@
 mod common;
 use common::plate;
 use common::rig::{Rig, programs};
+use common::shop::{disk, environment, three_axes};
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
+use takt_motion::feeder::ngc_reader;
 use takt_motion::machine::{AxisConfig, ChannelConfig};
-use takt_motion::{Background, MachineConfig};
+use takt_motion::{Background, Machine, MachineConfig};
 
 thread_local! {
     static COUNT: Cell<usize> = const { Cell::new(0) };
@@ -69,5 +71,48 @@ fn ticks_and_calls_do_not_allocate() {
     }
     assert!(done, "{:?}", rig.machine.report());
     assert!(rig.get(&axis_fbs[0], "Error"), "refused: the axis belongs to the channel");
+    assert_eq!(count, 0);
+}
+
+/// The same for what a program asks the machine while it runs: PLC variables, inputs, outputs, the probe, threads, tapping, single blocks.
+#[test]
+fn questions_and_threads_do_not_allocate() {
+    let text = "F6000\nG1 X10\n#<_plc_v0> = [#<_plc_level> + 1]\nM66 P1 L3 Q0.05\nM62 P3\nG1 X20\nM67 E1 Q2\nG38.3 Z-5\n\
+        S1200 M3\nG4 P0.3\nG33 Z-9 K1\nG33.1 Z-12 K1\nG95 F0.1\nG1 X22\nG94 F6000\nM52\nG1 X30\nM1\nM2\n";
+    let config = three_axes(ChannelConfig::default());
+    let machine = Machine::with_environment(&config, environment(&disk(&[("a.ngc", text)])), ngc_reader(), Background::Manual);
+    let mut rig = Rig::on(&config, machine);
+    rig.power_on();
+    let names = [
+        "CNC_LoadProgram",
+        "CNC_Io",
+        "CNC_Panel",
+        "CNC_ReadProbe",
+        "CNC_ReadStatus",
+        "CNC_MDI",
+        "CNC_CallSub",
+        "CNC_CheckProgram",
+    ];
+    let fbs: Vec<_> = names.iter().map(|n| rig.fb(n)).collect();
+    let all: Vec<_> = fbs.iter().collect();
+    fbs[1..5].iter().for_each(|fb| rig.set(fb, "Enable", true));
+    rig.text(&fbs[0], "FileName", "a.ngc");
+    rig.set(&fbs[0], "Execute", true);
+    let mut count = 0;
+    for t in 0..9000 {
+        match t {
+            50 => rig.set(&fbs[7], "Execute", true),
+            100 => rig.set(&fbs[2], "SingleBlock", true),
+            2000 => rig.set(&fbs[2], "SingleBlock", false),
+            _ => {}
+        }
+        rig.set(&fbs[2], "CycleStart", t >= 100 && t % 50 < 25 && rig.cnc() != takt_motion::channel::CncState::Ready || t == 110);
+        rig.machine.pump();
+        let before = COUNT.get();
+        rig.run(&all, 1);
+        count += COUNT.get() - before;
+    }
+    let report = &rig.machine.report().channels[0];
+    assert_eq!((report.part_count, report.error.clone(), rig.axis(0)), (1, None, 30.0));
     assert_eq!(count, 0);
 }

@@ -72,6 +72,7 @@ fn run(steps: Vec<Step>, config: &PlanConfig, r: &mut Random) -> PlanReport {
     for step in &steps {
         let mut emit = |mark, item| match item {
             Item::Move(m) => planner.push_move(mark, m),
+            Item::Special(m, special) => planner.push_special(mark, m, special),
             Item::Action(a) => planner.push(mark, a),
         };
         reader.read(step, &mut emit).expect("a good program");

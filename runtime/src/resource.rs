@@ -248,6 +248,7 @@ impl Resource {
     fn tick(&mut self, now: Nanos) -> Option<Nanos> {
         let t = self.ticks.as_mut()?.take(now)?;
         self.host.tick(t);
+        self.host.exchange(t, &mut self.memory);
         self.counts.ticks += 1;
         self.progress.publish(&self.counts);
         Some(t)

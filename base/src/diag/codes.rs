@@ -208,6 +208,15 @@ codes! {
     N0056 BadContour "this contour can't be cut in passes";
     N0057 LeftOut "the lenient switch passes over this" Warning;
     N0058 BadVirtualMove "polar or cylindrical interpolation can't make this move";
+    N0070 UnknownPlcVariable "the PLC program has no such variable";
+    N0071 PlcVariableType "a part program can't use this PLC variable";
+    N0072 PlcValue "the PLC variable can't take this value";
+    N0073 TooManyReads "the row reads too many PLC variables";
+    N0074 NoSuchInput "the channel has no input or output of this number";
+    N0075 ProbeMissed "the probe did not trip";
+    N0076 ProbeNotReady "the probe is not in the state that the probing needs";
+    N0077 ThreadTooFast "the axes can't follow the spindle";
+    N0078 NoStartLine "the program does not come to the line where it shall start";
 
     // --- C project and image files ---
     C0001 BadProjectFile "the project file can't be used";
@@ -246,6 +255,8 @@ codes! {
     F0603 AuxTimeout "an auxiliary function was not finished in time";
     F0604 AuxFault "the PLC program reported a fault of an auxiliary function";
     F0605 ChannelState "the command is not allowed in this state of the channel";
+    F0625 KeptFile "the parameters or the tool table of a channel can't be stored" Warning;
+    F0626 TableFile "the parameters or the tool table of a channel can't be read";
     F0701 DivisionByZero "integer division by zero";
     F0702 IndexFault "array index out of bounds";
     F0703 RangeFault "value outside of the subrange";

@@ -110,4 +110,10 @@ pub struct ChannelKeys {
     pub settings: Option<Vec<String>>,
     pub require_homed: Option<bool>,
     pub aux_timeout: Option<String>,
+    pub optional_stop: Option<bool>,
+    pub subs: Vec<String>,
+    pub parameter_file: Option<String>,
+    pub tool_table: Option<String>,
+    pub dry_run_mm_min: Option<f64>,
+    pub spindle_accel_rpm_s: Option<f64>,
 }

@@ -76,6 +76,12 @@ fn channel(k: &ChannelKeys) -> Result<ChannelConfig, Problem> {
         require_homed: k.require_homed.unwrap_or(d.require_homed),
         modes,
         language,
+        optional_stop: k.optional_stop.unwrap_or(d.optional_stop),
+        subs: k.subs.iter().map(|folder| folder.trim_end_matches('/').to_owned()).collect(),
+        parameter_file: k.parameter_file.clone(),
+        tool_table: k.tool_table.clone(),
+        dry_run_mm_min: k.dry_run_mm_min.unwrap_or(d.dry_run_mm_min),
+        spindle_accel_rpm_s: k.spindle_accel_rpm_s.unwrap_or(d.spindle_accel_rpm_s),
         ..d
     })
 }

@@ -9,7 +9,7 @@ use crate::segment::ErrorNote;
 use takt_base::Code;
 
 impl Channel {
-    fn start_point(&self, axes: &[Axis]) -> Point {
+    pub(super) fn start_point(&self, axes: &[Axis]) -> Point {
         let mut point = [0.0; AXES];
         for (p, axis) in point.iter_mut().zip(self.map) {
             *p = axis.and_then(|i| axes.get(i)).map_or(0.0, Axis::set_position);
@@ -18,6 +18,7 @@ impl Channel {
     }
 
     /// CNC_LoadProgram: the file of this name. Returns the number of the request, which becomes the number of the program.
+    #[doc(alias = "CNC_LoadProgram")]
     pub fn load(&mut self, name: &[u8], axes: &[Axis]) -> Result<u32, Code> {
         if self.state.is_active() || matches!(self.load, Load::Pending(_)) {
             return Err(Code::ChannelState);
@@ -44,7 +45,7 @@ impl Channel {
     }
 
     /// CNC_Run: the loaded program, whose number must be `program` unless that is 0.
-    pub fn run(&mut self, program: u32, axes: &mut [Axis]) -> Result<CommandId, Code> {
+    pub fn run(&mut self, program: u32, start_line: u32, raw: bool, axes: &mut [Axis]) -> Result<CommandId, Code> {
         if self.program_id == 0 || (program != 0 && program != self.program_id) {
             return Err(Code::ProgramNotLoaded);
         }
@@ -52,6 +53,14 @@ impl Channel {
         if self.state != CncState::Ready || self.joined {
             return Err(Code::ChannelState);
         }
+        let how = self.how(start_line, raw);
+        self.launch(axes, |run, start| Command::Run { run, start, how })?;
+        self.typed = false;
+        Ok(self.command)
+    }
+
+    /// Takes the axes for a run, if they are ready for it.
+    pub(super) fn launch(&mut self, axes: &mut [Axis], command: impl FnOnce(u32, Point) -> Command) -> Result<(), Code> {
         if self.axes(axes).any(|a| a.state() != AxisState::Standstill) {
             return Err(Code::WrongState);
         }
@@ -60,10 +69,10 @@ impl Channel {
         }
         let start = self.start_point(axes);
         let run = self.run.wrapping_add(1);
-        self.link.commands.push(Command::Run { run, start }).map_err(|_| Code::QueueFull)?;
+        self.link.commands.push(command(run, start)).map_err(|_| Code::QueueFull)?;
         self.run = run;
         self.begin(start, axes);
-        Ok(self.command)
+        Ok(())
     }
 
     fn begin(&mut self, start: Point, axes: &mut [Axis]) {
@@ -77,6 +86,9 @@ impl Channel {
             }
         }
         self.joined = true;
+        self.started = self.modes;
+        self.locked = self.lock();
+        (self.step, self.kept_back) = (false, false);
         self.hold = false;
         self.error = None;
         self.fault_id = 0;
@@ -115,11 +127,15 @@ impl Channel {
 
     /// CNC_Resume.
     pub fn resume(&mut self) -> Result<(), Code> {
+        let between = matches!(self.state, CncState::StepStop | CncState::ProgStop);
         if !self.event(CncEvent::Resume) {
             return Err(Code::ChannelState);
         }
         self.hold = false;
         self.stop_code = None;
+        if between {
+            self.executor.go_on();
+        }
         Ok(())
     }
 
@@ -144,11 +160,12 @@ impl Channel {
     }
 
     /// CNC_SetOverride: shares of the programmed speed, 0..=1.
-    pub fn set_override(&mut self, feed: f64, rapid: f64) -> Result<(), Code> {
-        if !(0.0..=1.0).contains(&feed) || !(0.0..=1.0).contains(&rapid) {
+    pub fn set_override(&mut self, feed: f64, rapid: f64, spindle: f64) -> Result<(), Code> {
+        if !(0.0..=1.0).contains(&feed) || !(0.0..=1.0).contains(&rapid) || !(0.0..=2.0).contains(&spindle) {
             return Err(Code::ParameterOutOfRange);
         }
         (self.demand.feed, self.demand.rapid) = (feed, rapid);
+        self.spindle.set_override(spindle);
         Ok(())
     }
 

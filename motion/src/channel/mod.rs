@@ -2,10 +2,15 @@
 //! Runs: cyclic. No allocation. The background half is [`crate::feeder`]; both meet in three rings.
 //! Invariant: whatever ends a program, the axes stop on the path. From: N1..N10, CNC function blocks.
 
+mod act;
 pub mod aux;
 pub mod commands;
+pub mod io;
+pub mod modes;
 pub mod pulses;
+pub mod questions;
 pub mod state;
+pub mod typed;
 
 pub use state::{CncEvent, CncState};
 
@@ -15,9 +20,13 @@ use crate::execution::{Demand, PathExecutor, Reached};
 use crate::feeder::{Command, Event};
 use crate::geometry::{AXES, Point};
 use crate::machine::config::ChannelConfig;
-use crate::segment::{Action, AuxCodes, ErrorNote, Mark, Planned};
+use crate::segment::{AuxCodes, ErrorNote, Mark, Planned};
+use crate::spindle::Spindle;
 use aux::Aux;
+use io::{Io, Waiting};
+use modes::{Modes, Panel};
 use pulses::PulseOutput;
+use questions::{Exchange, ProbeResult};
 use takt_base::Code;
 use takt_base::ring::{Rx, Tx};
 
@@ -37,6 +46,8 @@ enum Wait {
     Codes,
     /// Confirmation of M2 or M30.
     End,
+    /// M66.
+    Input(Waiting),
 }
 
 /// A load request and its end.
@@ -77,6 +88,27 @@ pub struct Channel {
     listened: bool,
     /// FaultID of CNC_AuxHandshake.
     fault_id: u16,
+    /// Inputs and outputs.
+    pub io: Io,
+    /// The simulated spindle.
+    pub spindle: Spindle,
+    exchange: Exchange,
+    probe: ProbeResult,
+    modes: Modes,
+    panel: Panel,
+    pressed: Result<(), Code>,
+    /// Those that the program was started with.
+    started: Modes,
+    /// One block is wanted.
+    step: bool,
+    /// The next block is kept back.
+    kept_back: bool,
+    /// Axes that do not follow, a bit each.
+    locked: u16,
+    /// One block or a subroutine runs, not the program.
+    typed: bool,
+    check: typed::Check,
+    returned: f64,
 }
 
 impl Channel {
@@ -106,6 +138,20 @@ impl Channel {
             part_count: 0,
             listened: false,
             fault_id: 0,
+            io: Io::default(),
+            spindle: Spindle::new(config.spindle_accel_rpm_s / 60.0),
+            exchange: Exchange::default(),
+            probe: ProbeResult::default(),
+            modes: Modes::default(),
+            panel: Panel::default(),
+            pressed: Ok(()),
+            started: Modes::default(),
+            step: false,
+            kept_back: false,
+            locked: 0,
+            typed: false,
+            check: typed::Check::Idle,
+            returned: 0.0,
             config,
         }
     }
@@ -179,6 +225,8 @@ impl Channel {
     pub fn tick(&mut self, axes: &mut [Axis]) {
         self.take_events();
         self.watch(axes);
+        let at = self.position();
+        self.spindle.tick(self.dt, &at);
         if !self.joined {
             // Left-overs of an aborted run make room for the next. What comes while they go waits for the next tick.
             (0..self.link.steps.len()).map_while(|_| self.link.steps.pop()).for_each(drop);
@@ -186,7 +234,10 @@ impl Channel {
         }
         self.executor.fill(&mut self.link.steps, self.run);
         self.aux_tick();
+        self.look_at_probe(axes);
+        self.release_block();
         self.path_tick();
+        self.probed();
         self.drive(axes);
         self.rest_tick(axes);
     }
@@ -217,7 +268,8 @@ impl Channel {
                     self.load = Load::Failed { request, code };
                     self.error = Some(note);
                 }
-                _ => {}
+                (Event::NotStored(note), _) => self.error = Some(note),
+                (event, _) => self.take_typed(&event),
             }
         }
     }
@@ -249,11 +301,14 @@ impl Channel {
         if self.state != CncState::AuxWait {
             return;
         }
+        if let Wait::Input(waiting) = self.wait {
+            return self.input_tick(waiting);
+        }
         if self.aux.take_finished() {
             match (self.wait, self.hold) {
                 (Wait::End, _) => self.end_program(),
-                (Wait::Codes, false) => drop(self.event(CncEvent::Finished)),
-                (Wait::Codes, true) => drop(self.event(CncEvent::FinishedHeld)),
+                (_, false) => drop(self.event(CncEvent::Finished)),
+                (_, true) => drop(self.event(CncEvent::FinishedHeld)),
             }
         } else if self.aux.wait(self.dt, self.config.aux_timeout_s) {
             self.fail(ErrorNote::new(Code::AuxTimeout, self.mark.line, 1, Code::AuxTimeout.title()));
@@ -269,7 +324,7 @@ impl Channel {
         if !self.is_moving_state() {
             return;
         }
-        let demand = Demand { hold: self.state != CncState::Running, ..self.demand };
+        let mut demand = self.demand_now();
         let mut left = self.dt;
         if let Some(p) = &mut self.pulses {
             p.begin_tick(left);
@@ -282,47 +337,22 @@ impl Channel {
             }
             let reached = self.executor.advance(left, &demand);
             self.mark = self.executor.mark();
+            if self.executor.take_reversal() {
+                self.spindle.reverse();
+            }
             match reached {
-                Reached::Action(step, rest) if self.act(&step) => left = rest,
-                _ => {
+                // What was done may change what the path sees: the sense of the spindle, for one.
+                Reached::Action(step, rest) if self.act(&step) => (left, demand) = (rest, self.demand_now()),
+                reached => {
+                    if reached == Reached::Block {
+                        self.block_end();
+                    }
                     if let Some(p) = &mut self.pulses {
                         p.rest();
                     }
                     break;
                 }
             }
-        }
-    }
-
-    /// Does what the path has reached; true if the path goes on at once.
-    fn act(&mut self, step: &Planned) -> bool {
-        self.mark = step.mark;
-        match &step.action {
-            Action::Pulse(m) => self.pulses.as_mut().map(|p| p.start(m)).is_some(),
-            Action::Aux(codes) if !codes.wait || !self.listened => {
-                self.aux.note(*codes);
-                true
-            }
-            Action::Aux(codes) => self.wait_for(*codes, Wait::Codes),
-            Action::ProgramStop { optional: true } if !self.config.optional_stop => true,
-            Action::ProgramStop { optional } => {
-                self.stop_code = Some(u16::from(*optional));
-                self.event(CncEvent::ProgramStop);
-                false
-            }
-            Action::End { m } if *m != 0 && self.config.handshake && self.listened => {
-                let codes = AuxCodes { m: [*m, 0, 0, 0], m_count: 1, wait: true, ..AuxCodes::default() };
-                self.wait_for(codes, Wait::End)
-            }
-            Action::End { .. } => {
-                self.end_program();
-                false
-            }
-            Action::Fault(note) => {
-                self.fail(*note);
-                false
-            }
-            Action::Move(_) | Action::Dwell(_) | Action::FeedOverride(_) => true,
         }
     }
 
@@ -335,8 +365,14 @@ impl Channel {
 
     fn end_program(&mut self) {
         self.event(CncEvent::End);
-        self.part_count = self.part_count.saturating_add(1);
+        self.part_count = self.part_count.saturating_add(u32::from(!self.typed));
         self.history.end(self.command, Outcome::Done);
+        self.step = false;
+        // A full ring means that the feeder is behind; then it keeps what it had before.
+        let _ = self.link.commands.push(Command::Ended { run: self.run });
+        if self.program_id == 0 {
+            self.state = CncState::Idle;
+        }
     }
 
     fn fail(&mut self, note: ErrorNote) {
@@ -357,6 +393,9 @@ impl Channel {
     fn stop_feeding(&mut self) {
         self.aux.cancel();
         self.hold = false;
+        self.step = false;
+        self.spindle.stop();
+        self.forget_exchange();
         // A full ring means that the feeder is behind; the number of the next run makes what it still sends harmless.
         let _ = self.link.commands.push(Command::Abort);
     }
@@ -372,7 +411,7 @@ impl Channel {
                 self.event(CncEvent::AtRest);
                 self.release(axes);
             }
-            CncState::Ready | CncState::Fault => self.release(axes),
+            CncState::Idle | CncState::Ready | CncState::Fault => self.release(axes),
             _ => {}
         }
     }
@@ -397,9 +436,9 @@ impl Channel {
     /// Set positions of the axes.
     fn drive(&self, axes: &mut [Axis]) {
         let position = self.position();
-        for (p, axis) in position.iter().zip(self.map) {
+        for (i, (p, axis)) in position.iter().zip(self.map).enumerate() {
             if let Some(axis) = axis.and_then(|i| axes.get_mut(i)) {
-                axis.follow(*p);
+                axis.follow(if self.has_lock(i) { axis.set_position() } else { *p });
             }
         }
     }

@@ -1,7 +1,7 @@
 //! States of a CNC channel and their moves.
 //! Runs: cyclic. From: transitions N1..N10 of the CNC function blocks.
 
-/// State of a channel; the number is that of CNC_STATE. Nothing leads to `StepStop` yet: single blocks are not in this version.
+/// State of a channel; the number is that of CNC_STATE.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[allow(missing_docs)] // the names of CNC_STATE
 #[repr(i16)]
@@ -44,6 +44,8 @@ pub enum CncEvent {
     Finished,
     /// The same while a hold is wanted.
     FinishedHeld,
+    /// A block has ended, and single blocks are wanted.
+    BlockEnd,
     /// M0, or M1 with optional stop.
     ProgramStop,
     /// M2, M30, end of file.
@@ -101,7 +103,7 @@ impl CncState {
 
 impl CncEvent {
     /// All events.
-    pub const ALL: [CncEvent; 16] = {
+    pub const ALL: [CncEvent; 17] = {
         use CncEvent as E;
         [
             E::AxesReady,
@@ -115,6 +117,7 @@ impl CncEvent {
             E::Wait,
             E::Finished,
             E::FinishedHeld,
+            E::BlockEnd,
             E::ProgramStop,
             E::End,
             E::Abort,
@@ -136,8 +139,8 @@ pub const fn next(state: CncState, event: CncEvent) -> Option<CncState> {
         (S::Idle | S::Ready, E::AxesLost) => S::NotReady,
         (S::Idle | S::Ready, E::Loaded) => S::Ready,
         (S::NotReady, E::Loaded) => S::NotReady,
-        (S::Ready, E::Run) => S::Running,
-        (S::ProgStop | S::Held | S::Holding, E::Resume) => S::Running,
+        (S::Idle | S::Ready, E::Run) => S::Running, // from Idle a single block (CNC_MDI)
+        (S::ProgStop | S::StepStop | S::Held | S::Holding, E::Resume) => S::Running,
         (S::Running, E::Hold) => S::Holding,
         (S::AuxWait, E::Hold | E::Resume) => S::AuxWait, // the strobe stays; the hold counts behind it
         (S::Holding | S::Held, E::Hold) => state,
@@ -145,6 +148,7 @@ pub const fn next(state: CncState, event: CncEvent) -> Option<CncState> {
         (S::Running, E::Wait) => S::AuxWait,
         (S::AuxWait, E::Finished) => S::Running,
         (S::AuxWait, E::FinishedHeld) => S::Held,
+        (S::Running, E::BlockEnd) => S::StepStop,
         (S::Running | S::Holding, E::ProgramStop) => S::ProgStop,
         (S::Running | S::Holding | S::AuxWait, E::End) => S::Ready,
         (S::Aborting, E::AtRest) => S::Ready,

@@ -37,4 +37,13 @@ fn show(channel: &Channel, f: &mut Frame) {
     f.set_member(P::Status, 7, channel.executor().distance_to_go().to_le_bytes());
     f.set_member(P::Status, 8, channel.feed_mm().to_le_bytes());
     f.set_member(P::Status, 9, channel.part_count().to_le_bytes());
+    let position = channel.position();
+    f.set_member(P::Status, 10, (60.0 * channel.spindle.commanded(&position)).to_le_bytes());
+    f.set_member(P::Status, 11, (60.0 * channel.spindle.speed()).to_le_bytes());
+    for (i, on) in (12..).zip(channel.modes_in_force()) {
+        f.set_member(P::Status, i, [u8::from(on)]);
+    }
+    for (i, value) in (0..).zip(&position) {
+        f.set_member_at(P::Status, 18, 8 * i, value.to_le_bytes());
+    }
 }

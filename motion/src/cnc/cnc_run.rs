@@ -8,11 +8,14 @@ use crate::{block, execute_pins};
 use takt_base::Code;
 
 block! {
-    /// Cycle start from cncReady. ProgramID 0: whatever is loaded. Done at M2, M30 or the end of the file.
+    /// Cycle start from cncReady. StartLine: motion starts at this line of the main program; what stands before it is read
+    /// without moving (cncLineModal) or not read at all (cncLineRaw). ProgramID 0: whatever is loaded. Done at M2, M30 or the end of the file.
     "CNC_Run", call;
     InOut Cnc: "CNC_REF";
     Input Execute: "BOOL";
     Input ProgramID: "UDINT";
+    Input StartLine: "UDINT";
+    Input StartMode: "CNC_START_MODE" = "cncLineModal";
     Output Done: "BOOL";
     Output Busy: "BOOL";
     Output Active: "BOOL";
@@ -25,6 +28,10 @@ block! {
     Private Reference: "UINT";
 }
 
+/// cncTop and cncLineRaw.
+const START_TOP: i16 = 0;
+const START_RAW: i16 = 2;
+
 fn call(core: &mut Core, f: &mut Frame) {
     let channel = rules::execute_channel(core, f, &execute_pins!(P motion), P::Cnc, &Action { start, poll: progress });
     if f.bool(P::Busy)
@@ -36,7 +43,9 @@ fn call(core: &mut Core, f: &mut Frame) {
 
 fn start(core: &mut Core, f: &mut Frame, channel: usize) -> Result<u32, Code> {
     let Core { axes, channels } = core;
-    channels[channel].run(f.u32(P::ProgramID), axes).map(|id| id.0)
+    let mode = f.i16(P::StartMode);
+    let line = if mode == START_TOP { 0 } else { f.u32(P::StartLine) };
+    channels[channel].run(f.u32(P::ProgramID), line, mode == START_RAW, axes).map(|id| id.0)
 }
 
 fn progress(core: &mut Core, channel: usize, command: u32) -> Progress {

@@ -3,11 +3,18 @@
 //! Invariant: the path speed is never above the planned one. Without hold and override it is the planned one; they cap it, and the
 //! path is kept with at most the path acceleration of each element. From: R1-116, R1-165, CM-23, scenario S40.
 
+mod blocks;
+mod follow;
+mod pace;
+mod probe;
 mod ramp;
 
+pub use probe::Probed;
+
 use crate::geometry::Point;
-use crate::segment::{Action, Mark, Planned, Segment};
-use ramp::{Ramp, meets};
+use crate::segment::{Action, Mark, Planned, Segment, Switch};
+use follow::Follow;
+use probe::ProbeMove;
 use std::collections::VecDeque;
 use takt_base::ring::Rx;
 
@@ -31,11 +38,39 @@ pub struct Demand {
     pub rapid: f64,
     /// Stop on the path.
     pub hold: bool,
+    /// Stop on the path whatever is going on: threads and probing do not obey a hold.
+    pub abort: bool,
+    /// Share that M52 lets through.
+    pub adaptive: f64,
+    /// Hold that M53 lets through.
+    pub feed_hold: bool,
+    /// The probe is in contact.
+    pub contact: bool,
+    /// Stop at the end of each block.
+    pub single: bool,
+    /// Encoder of the spindle in revolutions.
+    pub spindle_rev: f64,
+    /// Its speed in rev/s, signed.
+    pub spindle_rps: f64,
+    /// 1 for M3, -1 for M4: it may stand still as yet.
+    pub spindle_sense: f64,
 }
 
 impl Default for Demand {
     fn default() -> Self {
-        Self { feed: 1.0, rapid: 1.0, hold: false }
+        Self {
+            feed: 1.0,
+            rapid: 1.0,
+            hold: false,
+            abort: false,
+            adaptive: 1.0,
+            feed_hold: false,
+            contact: false,
+            single: false,
+            spindle_rev: 0.0,
+            spindle_rps: 0.0,
+            spindle_sense: 1.0,
+        }
     }
 }
 
@@ -47,6 +82,8 @@ pub enum Reached {
     Time,
     /// There is nothing to do.
     Nothing,
+    /// A block has ended, and the next one is not to begin.
+    Block,
     /// This comes next and is not for the path; so many seconds of the tick are left.
     Action(Planned, f64),
 }
@@ -79,6 +116,14 @@ pub struct PathExecutor {
     dwell_s: f64,
     pace: Pace,
     feed_override: bool,
+    adaptive: bool,
+    feed_hold: bool,
+    follow: Option<Follow>,
+    probe: Option<ProbeMove>,
+    /// The spindle has to turn the other way round.
+    reversal: bool,
+    /// A block was begun since the last stop at the end of one.
+    begun: bool,
     primed: bool,
     position: Point,
     history: [Option<Segment>; HISTORY],
@@ -107,6 +152,12 @@ impl PathExecutor {
             dwell_s: 0.0,
             pace: Pace::Plan,
             feed_override: true,
+            adaptive: false,
+            feed_hold: true,
+            follow: None,
+            probe: None,
+            reversal: false,
+            begun: false,
             primed: false,
             position,
             history: [None; HISTORY],
@@ -129,6 +180,8 @@ impl PathExecutor {
         self.queue.clear();
         self.queued_mm = 0.0;
         self.current = None;
+        self.follow = None;
+        self.probe = None;
         self.dwell_s = 0.0;
     }
 
@@ -157,6 +210,9 @@ impl PathExecutor {
 
     /// Path speed now, mm/s.
     pub fn speed(&self) -> f64 {
+        if let Some(follow) = &self.follow {
+            return follow.speed().abs();
+        }
         match (self.pace, &self.current) {
             (_, None) => 0.0,
             (Pace::Plan, Some(c)) => c.segment.profile.v(c.tau),
@@ -166,7 +222,7 @@ impl PathExecutor {
 
     /// True if the path stands still and would not move on this demand.
     pub fn is_held(&self) -> bool {
-        self.current.is_none() || self.pace == Pace::Free(0.0)
+        self.current.is_none() || self.follow.as_ref().map_or(self.pace == Pace::Free(0.0), Follow::is_stopped)
     }
 
     /// Place in the part program: what was begun last.
@@ -179,8 +235,12 @@ impl PathExecutor {
         self.current.as_ref().map_or(0.0, |c| (c.segment.path.length - c.s).max(0.0))
     }
 
-    /// Distance of a point from the path at and behind the current position, in mm; infinite without a path.
+    /// Distance of a point from the path at and behind the current position, in mm; infinite without a path, and
+    /// in rigid tapping, which goes as far as the spindle takes it.
     pub fn deviation(&self, p: &Point) -> f64 {
+        if self.follow.as_ref().is_some_and(Follow::is_tap) {
+            return f64::INFINITY;
+        }
         let current = self.current.as_ref().map(|c| &c.segment);
         let newest_first = (1..=HISTORY).map_while(|k| self.history[(self.history_next + HISTORY - k) % HISTORY].as_ref());
         let (mut nearest, mut behind) = (f64::INFINITY, 0.0);
@@ -198,7 +258,7 @@ impl PathExecutor {
     pub fn advance(&mut self, dt: f64, demand: &Demand) -> Reached {
         let starved = self.is_starved(dt);
         let reached = self.walk(dt, demand, starved);
-        if let Some(c) = &self.current {
+        if let Some(c) = self.current.as_ref().filter(|_| self.follow.is_none()) {
             self.position = c.segment.path.at(c.s);
         }
         let waits = self.primed && self.queue.is_empty() && !demand.hold && matches!(reached, Reached::Nothing);
@@ -213,14 +273,21 @@ impl PathExecutor {
                 return Reached::Time;
             }
             if self.dwell_s > 0.0 {
-                left = self.dwell(left, demand.hold);
+                left = self.dwell(left, demand.hold || (demand.feed_hold && self.feed_hold));
+            } else if self.follow.is_some() {
+                left = self.follow_step(left, demand);
             } else if self.current.is_some() {
                 let cap = self.cap(demand, starved);
-                left = self.step(left, cap);
+                left = match self.brake_to_block_end(left, cap, demand) {
+                    Some(rest) => rest,
+                    None => self.step(left, cap),
+                };
+                self.end_probe();
             } else {
                 match self.next(demand) {
                     Next::Started => {}
                     Next::Nothing => return Reached::Nothing,
+                    Next::Block => return Reached::Block,
                     Next::Other(step) => return Reached::Action(step, left),
                 }
             }
@@ -243,7 +310,11 @@ impl PathExecutor {
 
     /// Highest path speed that is wanted now: the override is a share of the programmed speed.
     fn cap(&self, demand: &Demand, starved: bool) -> f64 {
-        let (rapid, feed) = self.current.as_ref().map_or((false, 0.0), |c| (c.segment.rapid, c.segment.feed));
+        let Some(c) = &self.current else { return f64::INFINITY };
+        let (rapid, feed) = (c.segment.rapid, c.segment.feed);
+        if self.probe.is_some() {
+            return if demand.abort || starved || self.has_tripped() { 0.0 } else { f64::INFINITY };
+        }
         let share = if rapid {
             demand.rapid
         } else if self.feed_override {
@@ -251,12 +322,16 @@ impl PathExecutor {
         } else {
             1.0
         };
-        match share.clamp(0.0, 1.0) {
-            _ if demand.hold || starved => 0.0,
+        let share = if self.adaptive { share * demand.adaptive } else { share };
+        let hold = demand.hold || (demand.feed_hold && self.feed_hold);
+        let cap = match share.clamp(0.0, 1.0) {
+            _ if hold || starved => 0.0,
             // Without an override nothing is capped, not even by rounding.
             1.0 => f64::INFINITY,
             share => share * feed,
-        }
+        };
+        // G95: no more than the spindle gives.
+        if c.segment.per_rev > 0.0 { cap.min(c.segment.per_rev * demand.spindle_rps.abs() * share.clamp(0.0, 1.0)) } else { cap }
     }
 
     fn dwell(&mut self, left: f64, hold: bool) -> f64 {
@@ -273,7 +348,14 @@ impl PathExecutor {
             return Next::Nothing;
         }
         self.primed = true;
-        if self.queue.front().is_none_or(|step| demand.hold && self.speed_in(step) == 0.0) {
+        let hold = demand.hold || (demand.feed_hold && self.feed_hold);
+        if self.queue.front().is_none_or(|step| hold && self.speed_in(step) == 0.0) {
+            return Next::Nothing;
+        }
+        if demand.single && self.at_block_end() {
+            return Next::Block;
+        }
+        if self.thread_is_incomplete() {
             return Next::Nothing;
         }
         let Some(step) = self.queue.pop_front() else { return Next::Nothing };
@@ -283,9 +365,16 @@ impl PathExecutor {
                 self.queued_mm -= segment.path.length;
                 self.start(segment);
             }
+            Action::Special(segment, special) => self.start_special(segment, special, demand),
             Action::Dwell(seconds) => self.dwell_s = seconds,
             Action::FeedOverride(on) => self.feed_override = on,
-            _ => return Next::Other(step),
+            Action::Switch(Switch::Adaptive, on) => self.adaptive = on,
+            Action::Switch(Switch::FeedHold, on) => self.feed_hold = on,
+            _ => {
+                // What comes behind an answer has not been read yet: it is waited for as at the start.
+                self.primed &= !step.action.is_question();
+                return Next::Other(step);
+            }
         }
         Next::Started
     }
@@ -306,10 +395,16 @@ impl PathExecutor {
         self.history[last].as_ref().map_or(0.0, |s| s.profile.v_out)
     }
 
+    /// What was executed is no measure any more for where the actual position may be.
+    fn forget_history(&mut self) {
+        self.history = [None; HISTORY];
+    }
+
     fn count(&mut self, mark: Mark) {
         if mark.block != self.last.block && mark.block != 0 {
             self.blocks += 1;
         }
+        self.begun |= mark.block != 0;
         self.last = mark;
     }
 
@@ -329,83 +424,13 @@ impl PathExecutor {
             if !c.segment.rapid {
                 self.feed_mm += c.segment.path.length;
             }
-            self.history[self.history_next] = Some(c.segment);
-            self.history_next = (self.history_next + 1) % HISTORY;
+            self.remember(c.segment);
         }
     }
 
-    /// Uses up to `left` seconds on the current element, not above `cap` mm/s; returns what is left.
-    fn step(&mut self, left: f64, cap: f64) -> f64 {
-        match self.pace {
-            Pace::Plan => self.on_plan(left, cap),
-            Pace::Free(w) => self.off_plan(left, w, cap),
-        }
-    }
-
-    /// Along the plan until it has a speed above the cap. Where it brakes it brakes as hard as a cap could ask for.
-    fn on_plan(&mut self, left: f64, cap: f64) -> f64 {
-        let Some(c) = &mut self.current else { return left };
-        let p = &c.segment.profile;
-        let mut time = f64::INFINITY;
-        if p.v_peak > cap && c.tau < p.t_acc + p.t_const {
-            let v = p.v(c.tau);
-            time = if c.tau < p.t_acc && v < cap { (cap - v) / p.a } else { 0.0 };
-        }
-        if time < left {
-            let v = p.v(c.tau);
-            c.tau += time;
-            c.s = p.s(c.tau);
-            self.pace = Pace::Free(if time > 0.0 { cap } else { v });
-            return left - time;
-        }
-        let over = c.tau + left - p.duration();
-        if over < 0.0 {
-            c.tau += left;
-            c.s = p.s(c.tau);
-            return 0.0;
-        }
-        self.finish();
-        over
-    }
-
-    /// Below the plan at path speed `w`, towards the cap with the acceleration of the element, until the plan is met again.
-    fn off_plan(&mut self, left: f64, w: f64, cap: f64) -> f64 {
-        let Some(c) = &mut self.current else { return left };
-        if w == 0.0 && cap == 0.0 {
-            return 0.0;
-        }
-        let phase = c.segment.profile.phase(c.s);
-        let a = if w < cap {
-            c.segment.accel
-        } else if w > cap {
-            -c.segment.accel
-        } else {
-            0.0
-        };
-        if a >= phase.a && w <= cap && meets(w * w, phase.v2(c.s)) {
-            self.back_to_plan();
-            return left;
-        }
-        let ramp = Ramp::new(w, a, cap, c.s, &phase);
-        let time = ramp.time(w);
-        if time > left {
-            c.s += left * (w + 0.5 * a * left);
-            self.pace = Pace::Free((w + a * left).max(0.0));
-            return 0.0;
-        }
-        c.s = if ramp.to_phase_end { phase.end } else { c.s + ramp.length };
-        self.pace = Pace::Free(ramp.v_end);
-        if c.s >= c.segment.path.length - END_MM {
-            self.finish();
-        }
-        left - time
-    }
-
-    fn back_to_plan(&mut self) {
-        if let Some(c) = &mut self.current {
-            c.tau = c.segment.profile.time_at(c.s);
-            self.pace = Pace::Plan;
-        }
+    fn remember(&mut self, segment: Segment) {
+        self.history[self.history_next] = Some(segment);
+        self.history_next = (self.history_next + 1) % HISTORY;
     }
 }
 
@@ -416,5 +441,6 @@ const END_MM: f64 = 1e-12;
 enum Next {
     Started,
     Nothing,
+    Block,
     Other(Planned),
 }

@@ -11,6 +11,7 @@ pub use limits::{AxisLimits, PathLimits, path_limits};
 use crate::geometry::Path;
 use crate::profile::trapezoid;
 use crate::segment::{Action, Mark, Planned, Segment};
+use crate::sync::Special;
 use joint::{JOINT_BUDGET, joint};
 use std::collections::VecDeque;
 
@@ -28,6 +29,8 @@ pub struct Move {
     pub rapid: bool,
     /// Stop at its end in any case (G61.1).
     pub exact_stop: bool,
+    /// mm a revolution of the spindle (G95); 0: none.
+    pub per_rev: f64,
 }
 
 /// Something in the window.
@@ -103,6 +106,15 @@ impl Planner {
         } else {
             self.window.push_back(Held::Note(mark, action));
         }
+    }
+
+    /// Takes a move from rest to rest that does more than moving.
+    pub fn push_special(&mut self, mark: Mark, m: Move, special: Special) {
+        self.flush();
+        let PathLimits { v, a } = path_limits(&m.path, &self.axes, m.feed, 1.0);
+        let profile = trapezoid(m.path.length, 0.0, 0.0, v, a, a);
+        let segment = Segment { path: m.path, profile, accel: a, feed: m.feed, rapid: false, per_rev: 0.0 };
+        self.emit(mark, Action::Special(segment, special));
     }
 
     /// The path stops here: releases everything.
@@ -195,7 +207,10 @@ impl Planner {
                 let profile = trapezoid(length, v_in, v_out, p.limits.v, a, a);
                 let feed = if p.m.rapid { p.limits.v } else { p.m.feed };
                 self.v_released = v_out;
-                self.emit(p.mark, Action::Move(Segment { path: p.m.path, profile, accel: a, feed, rapid: p.m.rapid }));
+                self.emit(
+                    p.mark,
+                    Action::Move(Segment { path: p.m.path, profile, accel: a, feed, rapid: p.m.rapid, per_rev: p.m.per_rev }),
+                );
                 self.release_notes();
             }
             None => {}
@@ -239,7 +254,10 @@ mod tests {
         let mut at = [0.0; 6];
         for &(x, y, feed) in moves {
             let end = [x, y, 0., 0., 0., 0.];
-            planner.push_move(Mark::default(), Move { path: Path::line(at, end), feed, rapid: false, exact_stop: false });
+            planner.push_move(
+                Mark::default(),
+                Move { path: Path::line(at, end), feed, rapid: false, exact_stop: false, per_rev: 0.0 },
+            );
             at = end;
         }
         planner.flush();

@@ -1,7 +1,7 @@
 //! Who runs the feeders: the caller of `tick`, a thread, or somebody who calls `pump`.
 //! Runs: background.
 
-use crate::feeder::{Feeder, Files, Reader};
+use crate::feeder::{Environment, Feeder, Reader};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::JoinHandle;
@@ -22,8 +22,8 @@ pub enum Background {
 pub struct Pump {
     /// One a channel.
     pub feeders: Vec<Feeder>,
-    /// Files by name.
-    pub files: Files,
+    /// Files and PLC variables.
+    pub environment: Environment,
     /// Part programs to commands.
     pub reader: Reader,
 }
@@ -31,8 +31,14 @@ pub struct Pump {
 impl Pump {
     /// Does what can be done now; false if there was nothing.
     pub fn pump(&mut self) -> bool {
-        let (files, reader) = (&self.files, &self.reader);
-        self.feeders.iter_mut().map(|f| f.pump(files, reader)).fold(false, |any, busy| any | busy)
+        let (environment, reader) = (&self.environment, &self.reader);
+        self.feeders.iter_mut().map(|f| f.pump(environment, reader)).fold(false, |any, busy| any | busy)
+    }
+
+    /// The end: what came last is obeyed, and what has changed is stored.
+    fn close(&mut self) {
+        self.pump();
+        self.feeders.iter_mut().for_each(|f| f.close(&self.environment));
     }
 }
 
@@ -69,14 +75,18 @@ fn run(mut pump: Pump, stop: &AtomicBool) {
             std::thread::sleep(IDLE);
         }
     }
+    pump.close();
 }
 
 impl Drop for Half {
     fn drop(&mut self) {
-        if let Half::Thread(stop, handle) = self {
-            stop.store(true, Ordering::Release);
-            if let Some(handle) = handle.take() {
-                let _ = handle.join();
+        match self {
+            Half::Own(pump, _) => pump.close(),
+            Half::Thread(stop, handle) => {
+                stop.store(true, Ordering::Release);
+                if let Some(handle) = handle.take() {
+                    let _ = handle.join();
+                }
             }
         }
     }

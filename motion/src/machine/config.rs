@@ -133,6 +133,16 @@ pub struct ChannelConfig {
     pub language: crate::ngc::Language,
     /// CNC_LoadProgram reads the whole program and refuses a wrong one.
     pub check_on_load: bool,
+    /// Folders where subroutines are looked for, behind the folder of the program.
+    pub subs: Vec<String>,
+    /// File of the parameters; without one they last as long as the machine.
+    pub parameter_file: Option<String>,
+    /// File of the tools; without one every tool is allowed and has no offsets.
+    pub tool_table: Option<String>,
+    /// Feed of the dry run.
+    pub dry_run_mm_min: f64,
+    /// Acceleration of the simulated spindle in revolutions a minute per second; 0: it has its speed at once.
+    pub spindle_accel_rpm_s: f64,
 }
 
 impl Default for ChannelConfig {
@@ -148,6 +158,11 @@ impl Default for ChannelConfig {
             modes: String::new(),
             language: crate::ngc::Language::default(),
             check_on_load: true,
+            subs: Vec::new(),
+            parameter_file: None,
+            tool_table: None,
+            dry_run_mm_min: 3000.0,
+            spindle_accel_rpm_s: 6000.0,
         }
     }
 }
@@ -208,6 +223,12 @@ impl MachineConfig {
             && (!(blu_mm > 0.0 && blu_mm.is_finite()) || batch_max == 0)
         {
             wrong.push(format!("channel `{}`: basic length unit and largest batch must be positive", channel.name));
+        }
+        if !(channel.dry_run_mm_min > 0.0 && channel.dry_run_mm_min.is_finite()) {
+            wrong.push(format!("channel `{}`: dry_run_mm_min must be positive", channel.name));
+        }
+        if !(channel.spindle_accel_rpm_s >= 0.0 && channel.spindle_accel_rpm_s.is_finite()) {
+            wrong.push(format!("channel `{}`: spindle_accel_rpm_s must not be negative", channel.name));
         }
         if !(channel.aux_timeout_s >= 0.0 && channel.aux_timeout_s.is_finite()) {
             wrong.push(format!("channel `{}`: aux_timeout_s must not be negative", channel.name));

@@ -17,6 +17,15 @@ pub const CNC_STATUS: &[(&str, &str)] = &[
     ("DistanceToGo", "LREAL"),
     ("PathLength", "LREAL"),
     ("PartCount", "UDINT"),
+    ("SpindleCommanded", "LREAL"),
+    ("SpindleActual", "LREAL"),
+    ("SingleBlock", "BOOL"),
+    ("OptionalStop", "BOOL"),
+    ("DryRun", "BOOL"),
+    ("MachineLock", "BOOL"),
+    ("AuxLock", "BOOL"),
+    ("BlockSkip", "BOOL"),
+    ("Position", "ARRAY[0..8] OF LREAL"),
 ];
 
 const TYPES: &str = "\
@@ -30,6 +39,10 @@ END_TYPE
 TYPE CNC_REF : STRUCT
     ChannelNo : UINT;
 END_STRUCT;
+END_TYPE
+
+// Where CNC_Run starts: at the top; at StartLine, with the modes of what stands before it; at StartLine as if nothing stood before it.
+TYPE CNC_START_MODE : (cncTop := 0, cncLineModal := 1, cncLineRaw := 2) := cncLineModal;
 END_TYPE
 
 TYPE MC_DIRECTION : (mcPositiveDirection := 1, mcShortestWay := 2, mcNegativeDirection := 3, mcCurrentDirection := 4) := mcShortestWay;

@@ -17,7 +17,7 @@ pub use trace::Trace;
 use crate::axis::Axis;
 use crate::channel::{Channel, Link};
 use crate::execution::QUEUE;
-use crate::feeder::{Feeder, FeederConfig, Files, Reader};
+use crate::feeder::{Environment, Feeder, FeederConfig, Files, Reader};
 use crate::natives::{Bound, Core, Frame, bind};
 use background::{Half, Pump};
 use takt_base::Nanos;
@@ -45,6 +45,11 @@ impl Machine {
 
     /// A machine whose part programs are read by `reader`. The configuration must be valid.
     pub fn with_reader(config: &MachineConfig, files: Files, reader: Reader, background: Background) -> Self {
+        Self::with_environment(config, Environment::reading(files), reader, background)
+    }
+
+    /// A machine with everything that is around it. The configuration must be valid.
+    pub fn with_environment(config: &MachineConfig, environment: Environment, reader: Reader, background: Background) -> Self {
         let dt = config.servo_period.as_secs();
         let mut axes: Vec<_> = config.axes.iter().map(|a| Axis::new(a.clone(), dt)).collect();
         let (mut channels, mut feeders) = (Vec::new(), Vec::new());
@@ -57,7 +62,7 @@ impl Machine {
             feeders.push(feeder);
         }
         let trace = Trace::new(axes.len(), config.trace_ticks);
-        let half = Half::start(Pump { feeders, files, reader }, background);
+        let half = Half::start(Pump { feeders, environment, reader }, background);
         let core = Core { axes, channels };
         Self { core, bound: Vec::new(), half, trace, period: config.servo_period, deviation_max_mm: 0.0 }
     }
@@ -93,7 +98,7 @@ impl Machine {
     /// Distance of the actual position from the path, where a channel moves its axes.
     fn measure(&mut self) {
         for channel in &self.core.channels {
-            if !channel.has_axes() || channel.pulse_output().is_some() {
+            if !channel.has_axes() || channel.is_locked() || channel.pulse_output().is_some() {
                 continue;
             }
             let mut p = channel.position();
@@ -123,6 +128,10 @@ fn channel(machine: &MachineConfig, config: &ChannelConfig, dt: f64) -> (Channel
         check_on_load: config.check_on_load,
         modes: config.modes.clone(),
         language: config.language.clone(),
+        subs: config.subs.clone(),
+        parameter_file: config.parameter_file.clone(),
+        tool_table: config.tool_table.clone(),
+        dry_run_mm_s: config.dry_run_mm_min / 60.0,
     };
     let channel = Channel::new(config.clone(), machine.axis_map(config), dt, Link { commands, events, steps });
     (channel, Feeder::new(feeder, command_rx, event_tx, out))
@@ -143,6 +152,10 @@ impl Cyclic for Machine {
         channels.iter_mut().for_each(|c| c.refresh(axes));
         self.measure();
         self.trace.record(now, &self.core.axes);
+    }
+
+    fn exchange(&mut self, _: Nanos, memory: &mut [u8]) {
+        self.core.channels.iter_mut().for_each(|c| c.exchange(memory));
     }
 
     fn safe_stop(&mut self) {

@@ -57,6 +57,22 @@ impl<'a> Frame<'a> {
     pub fn set_lreal_at(&mut self, pin: impl Into<usize>, i: u32, value: f64) {
         self.write(self.at(pin).saturating_add(8 * i), value.to_le_bytes());
     }
+    /// Element of an ARRAY OF LREAL, from 0.
+    pub fn lreal_at(&self, pin: impl Into<usize>, i: u32) -> f64 {
+        f64::from_le_bytes(self.read(self.at(pin).saturating_add(8 * i)))
+    }
+    /// Element of an ARRAY OF BOOL, from 0.
+    pub fn bool_at(&self, pin: impl Into<usize>, i: u32) -> bool {
+        self.read::<1>(self.at(pin).saturating_add(i)) != [0]
+    }
+    /// Element of an ARRAY OF BOOL, from 0.
+    pub fn set_bool_at(&mut self, pin: impl Into<usize>, i: u32, value: bool) {
+        self.write(self.at(pin).saturating_add(i), [u8::from(value)]);
+    }
+    /// TIME
+    pub fn set_i64(&mut self, pin: impl Into<usize>, value: i64) {
+        self.write(self.at(pin), value.to_le_bytes());
+    }
     /// UINT, WORD
     pub fn u16(&self, pin: impl Into<usize>) -> u16 {
         u16::from_le_bytes(self.read(self.at(pin)))
@@ -112,8 +128,12 @@ impl<'a> Frame<'a> {
     }
     /// Sets a member of the structure of a pin; `i` counts the members of [`crate::machine::declarations::CNC_STATUS`].
     pub fn set_member<const N: usize>(&mut self, pin: impl Into<usize>, i: usize, bytes: [u8; N]) {
+        self.set_member_at(pin, i, 0, bytes);
+    }
+    /// The same at some bytes behind the start of the member: an element of an array.
+    pub fn set_member_at<const N: usize>(&mut self, pin: impl Into<usize>, i: usize, behind: u32, bytes: [u8; N]) {
         if let Some(offset) = self.bound.members.get(i) {
-            self.write(self.at(pin).saturating_add(*offset), bytes);
+            self.write(self.at(pin).saturating_add(*offset).saturating_add(behind), bytes);
         }
     }
 }

@@ -45,4 +45,11 @@ pub const BLOCKS: &[Block] = &[
     crate::cnc::cnc_read_status::BLOCK,
     crate::cnc::cnc_read_error::BLOCK,
     crate::cnc::cnc_aux_handshake::BLOCK,
+    crate::cnc::cnc_io::BLOCK,
+    crate::cnc::cnc_panel::BLOCK,
+    crate::cnc::cnc_step_block::BLOCK,
+    crate::cnc::cnc_mdi::BLOCK,
+    crate::cnc::cnc_call_sub::BLOCK,
+    crate::cnc::cnc_check_program::BLOCK,
+    crate::cnc::cnc_read_probe::BLOCK,
 ];

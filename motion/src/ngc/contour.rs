@@ -219,7 +219,7 @@ impl Interpreter {
     fn contour_row(&mut self, row: &super::code::Row, curves: &mut Vec<Option<Curve>>) -> Result<Option<After>> {
         if let Some(word) = &row.oword {
             let source = self.flow_mut().files.source();
-            return self.obey(word).map(Some).map_err(|fault| Box::new(fault.diag(source)));
+            return self.contour_word(word).map(Some).map_err(|fault| Box::new(fault.diag(source)));
         }
         let before = self.fill_request(row);
         if let Some(error) = self.take_error(before) {

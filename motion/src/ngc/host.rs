@@ -1,6 +1,7 @@
 //! What the interpreter asks of its surroundings: files of subroutines, variables of the PLC program.
 
 use super::text::Text;
+use crate::plc::{PlcError, Variable};
 use std::sync::Arc;
 use takt_base::SourceId;
 
@@ -12,7 +13,11 @@ pub trait Host: Send + Sync {
     fn open_text(&self, name: &str) -> Option<(SourceId, Text)> {
         self.open(name).map(|(source, text)| (source, text.into()))
     }
-    /// Value of a named parameter such as `_plc_speed` or `_ini[axis]max`.
+    /// The PLC variable of a path, which is what stands behind `_plc_`; `None`: there is no PLC program.
+    fn plc(&self, _path: &str) -> Option<Result<Variable, PlcError>> {
+        None
+    }
+    /// Value of a named parameter such as `_ini[axis]max`.
     fn value(&self, _name: &str) -> Option<f64> {
         None
     }
@@ -34,6 +39,10 @@ impl HostRef {
     /// See [`Host::open_text`].
     pub fn open_text(&self, name: &str) -> Option<(SourceId, Text)> {
         self.0.as_ref()?.open_text(name)
+    }
+    /// See [`Host::plc`].
+    pub fn plc(&self, path: &str) -> Option<Result<Variable, PlcError>> {
+        self.0.as_ref()?.plc(path)
     }
     /// See [`Host::value`].
     pub fn value(&self, name: &str) -> Option<f64> {

@@ -16,6 +16,7 @@ use super::flow::{Flow, Next};
 use super::lines::trimmed;
 use super::modal::Modal;
 use super::options::Options;
+use super::outside;
 use super::request::Request;
 use super::state::State;
 use super::text::Text;
@@ -27,19 +28,21 @@ use takt_base::{Code, Diag, Severity, SourceId, Span};
 /// Reads a part program. Owns its text, so it can be sent to a background thread.
 #[derive(Clone, Debug)]
 pub struct Interpreter {
-    flow: Flow,
-    state: State,
+    pub(super) flow: Flow,
+    pub(super) state: State,
     request: Request,
     stack: Stack,
-    queue: VecDeque<Step>,
+    pub(super) queue: VecDeque<Step>,
     /// The first command of the queue has been looked at.
     seen: bool,
     diags: Vec<Diag>,
+    /// A row that waits for PLC variables.
+    pub(super) held: Option<Row>,
     failed: Option<Box<Diag>>,
-    block: u32,
+    pub(super) block: u32,
     /// Rows since the last command.
     silent: u32,
-    opened: bool,
+    pub(super) opened: bool,
     percent: bool,
     ended: bool,
     /// M99 in the main program ends it: errors are looked for, or one run is asked for.
@@ -106,6 +109,7 @@ impl Interpreter {
             seen: false,
             ended: !diags.is_empty(),
             diags,
+            held: None,
             failed: None,
             block: 0,
             silent: 0,
@@ -115,6 +119,22 @@ impl Interpreter {
             stray: None,
             fanuc,
         }
+    }
+
+    /// Gives out the modes in force, before the first row.
+    pub(super) fn reopen(&mut self) {
+        let options = self.state.options.clone();
+        let modal = self.state.modal;
+        let mut all = prologue(&self.state, &options);
+        all.extend(modal.feed.map(Canon::SetFeedRate));
+        all.push(Canon::UseToolLengthOffsets(super::modal::scaled(modal.offsets.tool, 1.0 / self.state.unit())));
+        if modal.feed_mode == super::modal::FeedMode::PerRevolution {
+            all.push(Canon::SetFeedMode(true));
+        }
+        if modal.surface_speed.is_some() {
+            all.push(Canon::SetSpindleMode(modal.surface_speed));
+        }
+        self.queue = all.into_iter().map(|command| Step { block: 0, line: 0, n: None, command }).collect();
     }
 
     /// The modal state behind the last block that was read.
@@ -153,6 +173,13 @@ impl Interpreter {
 
     /// Reads one row: its commands go to the queue, what is wrong to `diags`.
     fn advance(&mut self) {
+        if let Some(row) = self.held.take() {
+            self.obey(&row);
+            if self.held.is_none() {
+                self.state.outside.values.clear();
+            }
+            return;
+        }
         if let Some(machine) = self.fanuc.take() {
             self.fanuc = Some(self.advance_fanuc(machine));
             return;
@@ -197,7 +224,7 @@ impl Interpreter {
         machine
     }
 
-    fn fail(&mut self, fault: Fault) {
+    pub(super) fn fail(&mut self, fault: Fault) {
         self.diags.push(fault.diag(self.flow.files.source()));
     }
 
@@ -211,12 +238,20 @@ impl Interpreter {
             return;
         }
         self.state.line = row.line;
+        if !self.asks_first(row) {
+            self.obey(row);
+        }
+    }
+
+    fn obey(&mut self, row: &Row) {
         let before = self.queue.len();
         if let Some(word) = &row.oword {
             self.comments(row);
+            let back = (self.flow.files.spot(), self.flow.here());
             match self.flow.obey(word, &mut self.state, &mut self.stack) {
                 Ok(After::Returned) => self.returned(row),
                 Ok(After::Next) => {}
+                Err(_) if self.asks_again(row, back) => {}
                 Err(fault) => self.fail(fault),
             }
         } else {
@@ -261,6 +296,9 @@ impl Interpreter {
             return;
         }
         let mut out = Out { queue: &mut self.queue, diags: &mut self.diags, block: self.block, line: row.line, n: row.n };
+        if !self.state.outside.sets.is_empty() {
+            outside::give_out(&mut self.state, &mut out, diags_before);
+        }
         let then = execute::execute(&self.request, row, &self.flow.code, &mut self.state, &mut out);
         if self.diags.len() > diags_before && self.failed_now(diags_before) {
             if !self.state.options.drop_in {
@@ -341,7 +379,7 @@ impl Interpreter {
     }
 
     /// An O word of a contour; modes that were saved in it are forgotten.
-    pub(super) fn obey(&mut self, word: &super::oword::OWord) -> Result<After, Fault> {
+    pub(super) fn contour_word(&mut self, word: &super::oword::OWord) -> Result<After, Fault> {
         let after = self.flow.obey(word, &mut self.state, &mut self.stack)?;
         if after == After::Returned {
             self.state.saved.pop();

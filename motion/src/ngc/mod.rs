@@ -23,6 +23,7 @@ pub mod modal;
 pub mod motion;
 mod number;
 pub mod options;
+pub mod outside;
 pub mod oword;
 pub mod param;
 pub mod reader;

@@ -58,6 +58,8 @@ pub struct Options {
     pub table_units: Units,
     /// Tool table; without one every tool is allowed and has no offsets.
     pub tools: Option<Arc<[ToolEntry]>>,
+    /// Tool in the spindle before the first block.
+    pub tool: u32,
     /// Parameters from a file: number and value.
     pub parameters: Arc<[(u16, f64)]>,
     /// Files of subroutines, variables of the PLC program.
@@ -91,6 +93,7 @@ impl Default for Options {
             drop_in: false,
             table_units: Units::Mm,
             tools: None,
+            tool: 0,
             parameters: Arc::new([]),
             host: HostRef::default(),
             calls_max: 100,

@@ -166,10 +166,8 @@ impl Request {
             match place {
                 Place::Numbered(index) => state.params.set(index, value),
                 Place::Named(name) if name.kind == Kind::Outside => {
-                    if !state.options.host.set_value(arena.names.text(name), value) {
-                        out.push(
-                            Diag::new(Code::BadParameter, self.span, "can't be set").help("the PLC program does not offer it"),
-                        );
+                    if let Err(e) = state.set_outside(arena.names.text(name), value) {
+                        out.push(Diag::new(e.code, self.span, e.label).help(e.help));
                         return None;
                     }
                 }

@@ -30,6 +30,8 @@ pub struct State {
     pub saved: Vec<Option<Box<SavedModes>>>,
     /// Cutter compensation.
     pub comp: super::comp::Comp,
+    /// What the machine and the PLC program say.
+    pub outside: super::outside::Outside,
     /// The last straight or circular move, for splines.
     pub spline_end: Option<[f64; 2]>,
 }
@@ -60,6 +62,7 @@ impl State {
             nurbs: None,
             saved: vec![None],
             comp: super::comp::Comp::default(),
+            outside: super::outside::Outside::default(),
             spline_end: None,
         };
         for (i, offset) in options.work_offsets.iter().enumerate() {
@@ -67,6 +70,10 @@ impl State {
         }
         state.params.set(5599, 1.0);
         state.params.set(5220, modal.work_offset as f64 + 1.0);
+        if let Some(entry) = state.tools.find(options.tool).filter(|_| options.tool > 0) {
+            state.tools.load(entry);
+            state.modal.tool_in_spindle = options.tool;
+        }
         for &(index, value) in options.parameters.iter() {
             state.params.set(index, value);
         }
@@ -158,7 +165,7 @@ impl State {
     pub fn named(&self, name: Name, arena: &Arena) -> Option<f64> {
         match name.kind {
             Kind::Fixed(predefined) => Some(self.predefined(predefined)),
-            Kind::Outside => self.options.host.value(arena.names.text(name)),
+            Kind::Outside => self.outside_value(arena.names.text(name)),
             _ => self.params.named(name),
         }
     }

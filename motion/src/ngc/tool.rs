@@ -57,6 +57,16 @@ impl Table {
         }
     }
 
+    /// All rows, with what the program has changed; `None` without a table.
+    pub fn rows(&self) -> Option<Arc<[ToolEntry]>> {
+        let tools = self.tools.as_ref()?;
+        let changed = |t: &ToolEntry| self.changed.iter().find(|c| c.tool == t.tool).copied().unwrap_or(*t);
+        if self.changed.is_empty() {
+            return Some(tools.clone());
+        }
+        Some(tools.iter().map(changed).collect())
+    }
+
     /// The tool in the spindle.
     pub fn in_spindle(&self) -> ToolEntry {
         self.spindle
@@ -120,4 +130,66 @@ fn entry(row: &str, index: u32, unit_mm: f64) -> Option<ToolEntry> {
         }
     }
     named.then_some(entry)
+}
+
+/// The table `old` with the values of `tools`: rows that have not changed stay as they are, the others keep their comment. Lengths in mm.
+pub fn write(old: &str, tools: &[ToolEntry]) -> String {
+    let (mut out, mut number) = (String::new(), 0);
+    for line in old.split_inclusive('\n') {
+        let (row, comment) = line.split_once(';').map_or((line, None), |(row, comment)| (row, Some(comment)));
+        let Some(before) = entry(row.trim(), number + 1, 1.0).filter(|_| !row.trim().is_empty()) else {
+            out.push_str(line);
+            continue;
+        };
+        number += 1;
+        match tools.iter().find(|t| t.tool == before.tool) {
+            Some(now) if !same(now, &before) => {
+                out += &row_of(now);
+                let end = if line.ends_with('\n') { "\n" } else { "" };
+                out += &comment.map_or_else(|| end.to_owned(), |c| format!(" ;{c}"));
+            }
+            _ => out.push_str(line),
+        }
+    }
+    out
+}
+
+/// What a row says, but for rounding of the decimals that are written.
+fn same(a: &ToolEntry, b: &ToolEntry) -> bool {
+    row_of(a) == row_of(b)
+}
+
+fn row_of(tool: &ToolEntry) -> String {
+    let mut row = format!("T{} P{}", tool.tool, tool.pocket);
+    let number = |v: f64| format!("{v:+.6}");
+    for (letter, value) in "XYZABCUVW".chars().zip(tool.offset).filter(|(_, v)| *v != 0.0) {
+        row += &format!(" {letter}{}", number(value));
+    }
+    for (letter, value) in [('D', tool.diameter), ('I', tool.front), ('J', tool.back)] {
+        if value != 0.0 {
+            row += &format!(" {letter}{}", number(value));
+        }
+    }
+    if tool.orientation != 0 {
+        row += &format!(" Q{}", tool.orientation);
+    }
+    row
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Comments and rows that did not change stay; a changed row reads back as it is.
+    #[test]
+    fn write_changes_what_changed() {
+        let old = ";my tools\nT1 P1 Z50 D6 ;mill\nt2p2z10\n";
+        let mut tools = read(SourceId(0), old, 1.0).unwrap();
+        assert_eq!(write(old, &tools), old);
+        tools[0].offset[2] = 51.25;
+        tools[0].orientation = 3;
+        let new = write(old, &tools);
+        assert_eq!(new, ";my tools\nT1 P1 Z+51.250000 D+6.000000 Q3 ;mill\nt2p2z10\n");
+        assert_eq!(read(SourceId(0), &new, 1.0).unwrap(), tools);
+    }
 }

@@ -132,7 +132,9 @@ fn call(command: &Canon, table_unit: f64) -> String {
         Canon::SetNaivecamTolerance(t) => format!("SET_NAIVECAM_TOLERANCE({t:.4})"),
         Canon::StartSpeedFeedSync(k) => format!("START_SPEED_FEED_SYNC({k:.6},0)"),
         Canon::StopSpeedFeedSynch => "STOP_SPEED_FEED_SYNCH()".into(),
-        Canon::SetOriginOffsets(_) | Canon::WaitInput(_) | Canon::Print(_) => String::new(),
+        Canon::SetOriginOffsets(_) | Canon::WaitInput(_) | Canon::Print(_) | Canon::ReadPlc(_) | Canon::SetPlc(..) => {
+            String::new()
+        }
         other => switch(other, table_unit),
     }
 }

@@ -4,6 +4,7 @@
 pub mod oracle;
 pub mod programs;
 pub mod rig;
+pub mod shop;
 
 use takt_motion::canon::{Arc, Canon, Position, ProgramEnd, Step};
 

@@ -9,7 +9,7 @@ use takt_image::{Cyclic, Elementary, NativeCall, NativeImport, NativeKind, Nativ
 use takt_motion::axis::AxisState;
 use takt_motion::canon::Step;
 use takt_motion::channel::CncState;
-use takt_motion::feeder::Reader;
+use takt_motion::feeder::{Plain, Reader};
 use takt_motion::machine::declarations::CNC_STATUS;
 use takt_motion::machine::{AxisConfig, ChannelConfig};
 use takt_motion::natives::{BLOCKS, pins};
@@ -39,7 +39,7 @@ pub fn reader(programs: Programs) -> Reader {
     let programs = Arc::new(programs);
     Box::new(move |p| {
         let steps = programs.get(&*p.text).cloned().unwrap_or_default();
-        Box::new(steps.into_iter().map(Ok))
+        Box::new(Plain(steps.into_iter().map(Ok)))
     })
 }
 
@@ -72,7 +72,11 @@ impl Rig {
         config.validate().expect("a valid configuration");
         let files =
             Box::new(|name: &str| if name.starts_with("no-") { Err("no such file".to_owned()) } else { Ok(name.to_owned()) });
-        let machine = Machine::with_reader(config, files, reader(programs), background);
+        Self::on(config, Machine::with_reader(config, files, reader(programs), background))
+    }
+
+    /// Around a machine made from `config`.
+    pub fn on(config: &MachineConfig, machine: Machine) -> Self {
         let mut rig =
             Self { machine, memory: vec![0; 1 << 16], types: TypeTable::new(), named: HashMap::new(), next: 64, ticks: 0 };
         rig.name_types();
@@ -92,7 +96,7 @@ impl Rig {
             let id = self.types.add(Type::Struct(record));
             self.named.insert(name, id);
         }
-        for name in ["MC_DIRECTION", "MC_BUFFER_MODE", "CNC_STATE"] {
+        for name in ["MC_DIRECTION", "MC_BUFFER_MODE", "CNC_STATE", "CNC_START_MODE"] {
             let id = self.types.add(Type::Enum { name: name.to_owned(), base: Elementary::Int, values: Vec::new() });
             self.named.insert(name, id);
         }
@@ -183,6 +187,31 @@ impl Rig {
     pub fn int(&mut self, fb: &Fb, pin: &str, value: i16) {
         self.put(fb, pin, &value.to_le_bytes());
     }
+    /// Element of an ARRAY OF BOOL or LREAL, from 0.
+    pub fn set_at(&mut self, fb: &Fb, pin: &str, i: usize, value: bool) {
+        let at = (fb.at + fb.record.field(pin).expect(pin).offset) as usize + i;
+        self.memory[at] = u8::from(value);
+    }
+    pub fn get_at(&self, fb: &Fb, pin: &str, i: usize) -> bool {
+        let at = (fb.at + fb.record.field(pin).expect(pin).offset) as usize + i;
+        self.memory[at] != 0
+    }
+    pub fn lreal_at(&mut self, fb: &Fb, pin: &str, i: usize, value: f64) {
+        let at = (fb.at + fb.record.field(pin).expect(pin).offset) as usize + 8 * i;
+        self.memory[at..at + 8].copy_from_slice(&value.to_le_bytes());
+    }
+    pub fn get_lreal_at(&self, fb: &Fb, pin: &str, i: usize) -> f64 {
+        let at = (fb.at + fb.record.field(pin).expect(pin).offset) as usize + 8 * i;
+        f64::from_le_bytes(self.memory[at..at + 8].try_into().expect("bytes"))
+    }
+    pub fn get_text(&self, fb: &Fb, pin: &str) -> String {
+        let at = (fb.at + fb.record.field(pin).expect(pin).offset) as usize;
+        let bytes: Vec<u8> = self.memory[at..].iter().copied().take_while(|&b| b != 0).collect();
+        String::from_utf8(bytes).expect("text")
+    }
+    pub fn word(&mut self, fb: &Fb, pin: &str, value: u32) {
+        self.put(fb, pin, &value.to_le_bytes());
+    }
     pub fn text(&mut self, fb: &Fb, pin: &str, value: &str) {
         let bytes: Vec<u8> = value.bytes().chain([0]).collect();
         self.put(fb, pin, &bytes);
@@ -195,6 +224,9 @@ impl Rig {
     }
     pub fn get_u16(&self, fb: &Fb, pin: &str) -> u16 {
         u16::from_le_bytes(self.bytes(fb, pin))
+    }
+    pub fn get_i64(&self, fb: &Fb, pin: &str) -> i64 {
+        i64::from_le_bytes(self.bytes(fb, pin))
     }
     pub fn get_u32(&self, fb: &Fb, pin: &str) -> u32 {
         u32::from_le_bytes(self.bytes(fb, pin))
@@ -236,6 +268,7 @@ impl Rig {
     pub fn tick(&mut self) {
         let now = self.now();
         self.machine.tick(now);
+        self.machine.exchange(now, &mut self.memory);
         self.ticks += 1;
     }
 

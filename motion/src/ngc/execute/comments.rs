@@ -86,7 +86,9 @@ fn parameter(rest: &str, state: &State, arena: &Arena) -> (usize, Option<f64>) {
     {
         let plain: String = name[..end].chars().filter(|c| !c.is_whitespace()).collect::<String>().to_ascii_lowercase();
         let name = arena.names.find(&plain).or_else(|| crate::ngc::param::Names::fixed(&plain));
-        return (end + 3, name.and_then(|name| state.named(name, arena)));
+        let value = name.and_then(|name| state.named(name, arena));
+        let outside = || plain.starts_with(crate::ngc::outside::PREFIX).then(|| state.outside_value(&plain)).flatten();
+        return (end + 3, value.or_else(outside));
     }
     let digits = inside.bytes().take_while(u8::is_ascii_digit).count();
     let index = inside[..digits].parse().ok().and_then(param::index);

@@ -3,7 +3,8 @@
 use super::{Done, Run};
 use crate::canon::{Canon, Direction, Input};
 use crate::ngc::modal::{FeedMode, Modal};
-use crate::ngc::request::{bad_value, missing};
+use crate::ngc::outside::Awaits;
+use crate::ngc::request::{bad_value, missing, not_now};
 use crate::ngc::state::SavedModes;
 use crate::ngc::word::{Action, Coolant, Group, Modes, Override};
 use takt_base::Diag;
@@ -168,7 +169,7 @@ impl Run<'_, '_> {
         Err(Box::new(bad_value(word, "no such output", "write a whole number from 0")))
     }
 
-    /// M66. The answer of the machine is not known while the program is read ahead: `#5399` becomes the value of the host, or 0.
+    /// M66. `#5399` is the answer of the machine; while a program is only looked at, the value of the host, or 0.
     fn wait_input(&mut self) -> Done {
         let (digital, analog) = (self.request.word('P'), self.request.word('E'));
         if let (Some(_), Some(word)) = (digital, analog) {
@@ -190,7 +191,12 @@ impl Run<'_, '_> {
         }
         let name = if analog.is_some() { format!("_input_e{number}") } else { format!("_input_p{number}") };
         let value = self.state.options.host.value(&name).unwrap_or(0.0);
+        if self.state.comp.waits() && !self.state.options.drop_in {
+            let at = self.request.code_span(Group::Io);
+            return Err(Box::new(not_now(at, "M66 while G41 or G42 is in force", "write G40 before it")));
+        }
         self.state.params.set(5399, value);
+        self.state.outside.awaits = Some(Awaits::Input);
         self.emit(Canon::WaitInput(Input { number, analog: analog.is_some(), wait, timeout }));
         Ok(())
     }

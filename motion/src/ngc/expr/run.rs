@@ -59,7 +59,7 @@ fn step(op: Op, arena: &Arena, view: &View, stack: &mut Stack) -> Result<(), Why
             "no parameter of this name has a value",
             "give it a value first, such as #<name> = 1; a name without `_` is local to its subroutine",
         ))?),
-        Op::Exists(name) => stack.push(f64::from(u8::from(view.named(name, arena).is_some()))),
+        Op::Exists(name) => stack.push(f64::from(u8::from(view.exists(name, arena)))),
         Op::ParameterAt => unary(stack, |number| match param::index(number) {
             Some(index) => Ok(view.numbered(index)),
             None => Err((Code::BadParameter, "no parameter has this number", "numbers are whole, from 1 to 5601")),

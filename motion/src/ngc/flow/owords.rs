@@ -338,6 +338,12 @@ impl Flow {
     pub fn here(&self) -> Place {
         self.here
     }
+
+    /// Back to where an O word was about to be obeyed: `spot` behind it, `here` where it stands.
+    pub fn back_to(&mut self, spot: Spot, here: Place) {
+        self.files.go(spot);
+        self.here = here;
+    }
 }
 
 fn end_of(open: Open) -> Keyword {

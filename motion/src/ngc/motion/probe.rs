@@ -4,6 +4,7 @@ use super::{check_feed, need, target};
 use crate::canon::{Canon, Position, Probe};
 use crate::ngc::execute::{Done, Run};
 use crate::ngc::modal::{FeedMode, Motion, minus, mm_per_unit};
+use crate::ngc::outside::Awaits;
 use crate::ngc::request::{AXES, not_now};
 
 /// First parameter of the tripped position, and the one that says whether the probe tripped.
@@ -37,6 +38,7 @@ pub fn run(run: &mut Run, code: u8) -> Done {
         run.request.span,
     );
     run.emit(Canon::TurnProbeOff);
+    run.state.outside.awaits = Some(Awaits::Probe);
     let values: [f64; 6] = end.into();
     for (i, _) in AXES.iter().enumerate() {
         run.state.params.set(RESULT_FIRST + i as u16, values[i]);

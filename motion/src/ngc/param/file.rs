@@ -50,11 +50,15 @@ fn bad_row(span: Span) -> Diag {
 
 /// The file for the parameters of `state`: those that every file has, and those of the file that was read.
 pub fn write(state: &State) -> String {
-    let read = state.options.parameters.iter().map(|p| p.0);
-    let all: BTreeSet<u16> = (5161..=5390).filter(|&i| is_kept(i)).chain(read).collect();
+    write_values(|i| state.params.get(i), state.options.parameters.iter().map(|p| p.0))
+}
+
+/// The file for the values of `value`: those that every file has, and `extra`.
+pub fn write_values(value: impl Fn(u16) -> f64, extra: impl Iterator<Item = u16>) -> String {
+    let all: BTreeSet<u16> = (5161..=5390).filter(|&i| is_kept(i)).chain(extra).collect();
     let mut out = String::new();
     for index in all {
-        let _ = writeln!(out, "{index}\t{:.6}", state.params.get(index));
+        let _ = writeln!(out, "{index}\t{:.6}", value(index));
     }
     out
 }

@@ -31,6 +31,7 @@ pub struct Names {
     map: HashMap<String, Name>,
     texts: Vec<String>,
     bytes: usize,
+    outside: bool,
 }
 
 /// Names that a program may have, and bytes of all of them.
@@ -50,6 +51,7 @@ impl Names {
             None if lower.starts_with('_') => Kind::Global,
             None => Kind::Local,
         };
+        self.outside |= kind == Kind::Outside;
         let name = Name { id: self.texts.len() as u32, kind };
         self.texts.push(text.to_owned());
         self.bytes += text.len();
@@ -60,6 +62,11 @@ impl Names {
     /// True if there is room for no other name than those that were read.
     pub fn is_full(&self) -> bool {
         self.texts.len() >= NAMES_MAX || self.bytes >= BYTES_MAX
+    }
+
+    /// True if an outside name was ever read.
+    pub fn has_outside(&self) -> bool {
+        self.outside
     }
 
     /// A name that shows the state of the interpreter.

@@ -30,6 +30,8 @@ pub(super) fn read(name: &str, inside: &str, args: &[&str]) -> Result<Canon, Bad
         "CLEAR_AUX_OUTPUT_BIT" => count(args).map(Canon::ClearAuxOutputBit),
         "SET_MOTION_OUTPUT_VALUE" => indexed_value(args).map(|(i, v)| Canon::SetMotionOutputValue(i, v)),
         "SET_AUX_OUTPUT_VALUE" => indexed_value(args).map(|(i, v)| Canon::SetAuxOutputValue(i, v)),
+        "READ_PLC" => args.iter().map(|a| unquoted(a)).collect::<Option<_>>().map(Canon::ReadPlc),
+        "SET_PLC" => named_value(args),
         "WAIT_INPUT" => input(args).map(Canon::WaitInput),
         _ => return Err(BadLine::Name),
     };
@@ -56,6 +58,11 @@ fn indexed_position(args: &[&str]) -> Option<(u32, Position)> {
 fn indexed_value(args: &[&str]) -> Option<(u32, f64)> {
     let [index, value] = args else { return None };
     Some((index.parse().ok()?, read_number(value)?))
+}
+
+fn named_value(args: &[&str]) -> Option<Canon> {
+    let [name, value] = args else { return None };
+    Some(Canon::SetPlc(unquoted(name)?, read_number(value)?))
 }
 
 fn angle_and_mode(args: &[&str]) -> Option<Canon> {
