@@ -207,14 +207,12 @@ impl Interpreter {
     /// The same in a Fanuc-style dialect.
     fn advance_fanuc(&mut self, mut machine: Box<fanuc::Machine>) -> Box<fanuc::Machine> {
         let (mark, before) = (self.queue.len(), self.diags.len());
-        let request = std::mem::take(&mut self.request);
         let out = Out { queue: &mut self.queue, diags: &mut self.diags, block: self.block, line: self.state.line, n: None };
         let span = Span::new(machine.source(), 0, 0);
-        let mut io = fanuc::kernel::Io { state: &mut self.state, out, request, span };
+        let mut io = fanuc::kernel::Io { state: &mut self.state, out, request: &mut self.request, span };
         let went = machine.advance(&mut io);
         self.block = io.out.block;
         let line = io.out.line;
-        self.request = io.request;
         if self.diags.len() > before && self.failed_now(before) {
             self.queue.truncate(mark);
             self.state.comp.reset();

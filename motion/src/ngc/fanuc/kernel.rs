@@ -18,7 +18,7 @@ pub struct Io<'a, 'b> {
     /// Commands and diagnostics.
     pub out: Out<'b>,
     /// A block of the kernel.
-    pub request: Request,
+    pub request: &'a mut Request,
     /// The block at hand.
     pub span: Span,
 }
@@ -37,7 +37,7 @@ impl<'b> Io<'_, 'b> {
 
     /// The kernel at work on the block that was put together.
     pub fn run(&mut self) -> Run<'_, 'b> {
-        Run { request: &self.request, state: self.state, out: &mut self.out, then: Then::Next }
+        Run { request: self.request, state: self.state, out: &mut self.out, then: Then::Next }
     }
 
     /// Adds a command, behind a move that waits for compensation.
@@ -65,7 +65,7 @@ impl<'b> Io<'_, 'b> {
             self.request.put_word(letter, value, at);
         }
         let before = self.out.diags.len();
-        execute::execute(&self.request, &crate::ngc::code::Row::bare(), &Default::default(), self.state, &mut self.out);
+        execute::execute(self.request, &crate::ngc::code::Row::bare(), &Default::default(), self.state, &mut self.out);
         // What the kernel says in its own code is said of this block.
         for diag in &mut self.out.diags[before..] {
             if diag.span.end <= diag.span.start {

@@ -65,6 +65,8 @@ pub struct Machine {
     corner: Option<corner::Corner>,
     /// Moves of a contour, where one is read for a cycle.
     recording: Option<Vec<moves::Seg>>,
+    /// The last row was a skip move: the machine says where it ended.
+    skipped: bool,
     /// The blocks of a contour are being run.
     in_profile: bool,
     nurbs: Option<nurbs::Curve>,
@@ -116,6 +118,7 @@ impl Machine {
             opened: false,
             corner: None,
             recording: None,
+            skipped: false,
             in_profile: false,
             nurbs: None,
             modal_macro: None,
@@ -208,6 +211,9 @@ impl Machine {
 
     fn row(&mut self, row: &Row, io: &mut Io) -> Went {
         self.opened = true;
+        if std::mem::take(&mut self.skipped) {
+            self.sync(io);
+        }
         if let Some(span) = self.stray.take() {
             io.wrong(Diag::new(Code::LeftOut, span, "`%` inside of the program").help("the program goes on behind it"));
         }

@@ -150,7 +150,9 @@ fn whole(cursor: &mut Cursor, from: usize, what: &str) -> Result<u32, Fault> {
 
 fn item(byte: u8, cursor: &mut Cursor, row: &mut Row) -> Result<(), Fault> {
     let rest = cursor.rest();
-    let starts = |text: &[u8]| rest.starts_with(text);
+    // A letter with a number behind it starts no statement: most words.
+    let letters = rest.get(1).is_some_and(u8::is_ascii_lowercase);
+    let starts = |text: &[u8]| letters && rest.starts_with(text);
     match byte {
         b'#' => setting(cursor, row),
         b',' => comma(cursor, row),

@@ -154,13 +154,14 @@ impl Machine {
         run.emit(Canon::TurnProbeOn);
         checked(&mut run, Canon::StraightProbe(end, Probe { towards: true, must_trip: false }), at);
         run.emit(Canon::TurnProbeOff);
+        run.state.outside.awaits = Some(crate::ngc::outside::Awaits::Probe);
         run.modal().position = end;
         let values: [f64; 6] = end.into();
         for (i, value) in values.into_iter().enumerate() {
             io.state.params.set(SKIPPED + i as u16, value);
         }
         io.state.params.set(TRIPPED, 1.0);
-        self.modes.at = to;
+        (self.modes.at, self.skipped) = (to, true);
         Ok(())
     }
 
