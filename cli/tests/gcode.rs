@@ -27,9 +27,9 @@ fn rs274_lists_calls_and_writes_parameters() {
     let rows: Vec<&str> = listing.lines().collect();
     assert_eq!(rows[0], "    1 N..... USE_LENGTH_UNITS(CANON_UNITS_MM)");
     assert_eq!(rows[6], "    7 N10    SET_FEED_RATE(100.0000)");
-    assert_eq!(rows[8], "    9 N..... STRAIGHT_FEED(3.0000, 0.0000, 0.0000, 0.0000, 0.0000, 0.0000)");
+    assert_eq!(rows[9], "   10 N..... STRAIGHT_FEED(3.0000, 0.0000, 0.0000, 0.0000, 0.0000, 0.0000)");
     assert!(listing.contains("USE_TOOL_LENGTH_OFFSET(0.0000 0.0000 12.7000, "), "{listing}");
-    assert!(listing.ends_with("PROGRAM_END()\n   23 N..... ON_RESET()\n   24 N..... ON_RESET()\n"), "{listing}");
+    assert!(listing.ends_with("PROGRAM_END()\n   24 N..... ON_RESET()\n   25 N..... ON_RESET()\n"), "{listing}");
     let parameters = fs::read_to_string(folder.join("v.var")).unwrap();
     assert!(parameters.contains("31\t4.000000\n") && parameters.contains("5241\t1.000000\n"), "{parameters}");
 }
@@ -50,6 +50,29 @@ fn rs274_stops_at_errors_or_goes_on() {
     let ran = takt(&["rs274", "-g", "-n", "0", &path]);
     assert_eq!(ran.status, 0);
     assert!(ran.stdout.contains("STRAIGHT_TRAVERSE(3.0000") && ran.stdout.contains("PROGRAM_END()"), "{}", ran.stdout);
+}
+
+/// Behind an error in a subroutine the main program goes on; an INI file turns M19 and leaves out the rows of the exit.
+#[test]
+fn rs274_goes_on_behind_the_call_and_reads_the_ini_file() {
+    let folder = folder("rs274-unwind");
+    let text = "o1 sub\nG0 X[1/0]\nG0 X5\no1 endsub\nM98 P1 L1000000\nG91 G0 X2\nM19 R45\nM2\n";
+    fs::write(folder.join("u.ngc"), text).unwrap();
+    fs::write(folder.join("u.ini"), "[RS274NGC]\nORIENT_OFFSET = 42\n").unwrap();
+    let path = |name: &str| folder.join(name).display().to_string();
+    let ran = takt(&["rs274", "-n", "0", "-i", &path("u.ini"), "-g", &path("u.ngc")]);
+    let rows: Vec<&str> = ran.stdout.lines().filter_map(|row| row.split_once(" N..... ")).map(|r| r.1).collect();
+    assert_eq!(
+        rows[6..9],
+        [
+            "COMMENT(\"interpreter: distance mode changed to incremental\")",
+            "STRAIGHT_TRAVERSE(2.0000, 0.0000, 0.0000, 0.0000, 0.0000, 0.0000)",
+            "ORIENT_SPINDLE(0, 87.0000, 0)"
+        ],
+        "{}",
+        ran.stdout
+    );
+    assert_eq!(rows[rows.len() - 2..], ["PROGRAM_END()", "ON_RESET()"]);
 }
 
 #[test]

@@ -131,6 +131,8 @@ pub enum Canon {
     UseToolLengthOffset(f64),
     Comment(String),
     Message(String),
+    /// Extension, drop-in listing only: what LinuxCNC says of a mode that no command shows.
+    Remark(&'static str),
     FloodOff,
     FloodOn,
     MistOff,

@@ -55,6 +55,7 @@ fn parts(command: &Canon) -> (&'static str, String) {
         Canon::SetFeedMode(per_rev) => ("SET_FEED_MODE", u8::from(*per_rev).to_string()),
         Canon::SetSpindleMode(max) => ("SET_SPINDLE_MODE", number(max.unwrap_or(0.0))),
         Canon::SetNaivecamTolerance(length) => ("SET_NAIVECAM_TOLERANCE", number(*length)),
+        Canon::Remark(text) => ("COMMENT", quoted(text)),
         Canon::StartChange => ("START_CHANGE", String::new()),
         Canon::ChangeToolNumber(tool) => ("CHANGE_TOOL_NUMBER", tool.to_string()),
         Canon::SetToolTableEntry(entry) => ("SET_TOOL_TABLE_ENTRY", tool_entry(entry)),

@@ -224,6 +224,7 @@ impl RunReader {
             | Canon::WaitOrientComplete(_)
             | Canon::SetFeedReference(_)
             | Canon::Comment(_)
+            | Canon::Remark(_)
             | Canon::Message(_) => {}
             _ => return Ok(false),
         }

@@ -5,6 +5,12 @@
 //! and closes the machine. The last command is always `PROGRAM_END`: from M2 or M30, or from the end of the text or a closing `%`.
 //! A comment does not count as a block; its commands carry the number of the block before.
 
+mod check;
+mod commands;
+mod inside;
+
+pub use check::{check, check_each};
+
 use super::code::Row;
 use super::execute::{self, Out, Then};
 use super::expr::run::Stack;
@@ -21,7 +27,7 @@ use super::request::Request;
 use super::state::State;
 use super::text::Text;
 use crate::canon::{Canon, FeedReference, ProgramEnd, Step};
-use std::collections::{HashSet, VecDeque};
+use std::collections::VecDeque;
 use std::sync::Arc;
 use takt_base::{Code, Diag, Severity, SourceId, Span};
 
@@ -51,37 +57,6 @@ pub struct Interpreter {
     stray: Option<Span>,
     /// Reads a Fanuc-style dialect in place of `flow`.
     fanuc: Option<Box<fanuc::Machine>>,
-}
-
-/// Rows that a check executes; a longer program is checked no further.
-const CHECKED_ROWS: u64 = 20_000_000;
-/// Diagnostics that a check gives.
-const DIAGS_MAX: usize = 1_000_000;
-
-/// All errors and warnings of a program, in the order in which it runs up to M2, M30 or a closing `%`, each once. Goes on behind a wrong
-/// block with the state that it would have left. Rows that are not executed are read too.
-pub fn check(source: SourceId, text: impl Into<Text>, options: Options) -> Vec<Diag> {
-    let mut diags = Vec::new();
-    check_each(source, text, options, |diag| diags.push(diag));
-    diags
-}
-
-/// The same one by one, for programs of any size.
-pub fn check_each(source: SourceId, text: impl Into<Text>, options: Options, mut found: impl FnMut(Diag)) {
-    let mut interpreter = Interpreter::new(source, text, options);
-    interpreter.once = true;
-    interpreter.flow.thorough = true;
-    let (mut seen, mut rows) = (HashSet::new(), 0_u64);
-    while !interpreter.ended && rows < CHECKED_ROWS && seen.len() < DIAGS_MAX {
-        interpreter.queue.clear();
-        interpreter.advance();
-        rows += 1;
-        interpreter.take_found();
-        interpreter.diags.drain(..).filter(|d| seen.insert((d.span, d.code))).for_each(&mut found);
-    }
-    if let Some(machine) = &mut interpreter.fanuc {
-        machine.unread().into_iter().filter(|d| seen.insert((d.span, d.code))).for_each(&mut found);
-    }
 }
 
 impl Interpreter {
@@ -145,8 +120,9 @@ impl Interpreter {
         &self.state
     }
 
-    /// Goes on behind an error with the next row (`rs274 -n 0`).
+    /// Goes on behind an error with the next row of the main program (`rs274 -n 0`).
     pub fn go_on(&mut self) {
+        self.flow.unwind(&mut self.state);
         self.ended = self.flow.files.broken;
     }
 
@@ -346,64 +322,6 @@ impl Interpreter {
         }
     }
 
-    /// The parts at work, for a cycle that makes many moves.
-    pub(super) fn parts(&mut self) -> (&Request, &mut State, &mut VecDeque<Step>, &mut Vec<Diag>, u32) {
-        (&self.request, &mut self.state, &mut self.queue, &mut self.diags, self.block)
-    }
-
-    /// The words of the block.
-    pub(super) fn request_ref(&self) -> &Request {
-        &self.request
-    }
-
-    /// Where the program goes on.
-    pub(super) fn flow_mut(&mut self) -> &mut Flow {
-        &mut self.flow
-    }
-
-    /// What is wrong so far.
-    pub(super) fn diags_mut(&mut self) -> &mut Vec<Diag> {
-        &mut self.diags
-    }
-
-    /// A mistake of a cycle.
-    pub(super) fn note(&mut self, diag: Diag) {
-        self.diags.push(diag);
-    }
-
-    /// Enters the subroutine of a contour.
-    pub(super) fn enter_sub(&mut self, number: u32, place: (u32, u32)) -> Result<(), Fault> {
-        self.flow.call_program(number, 1, place, &mut self.state)
-    }
-
-    /// Leaves it before its end.
-    pub(super) fn leave_sub(&mut self) {
-        self.flow.leave(&mut self.state);
-        self.state.saved.pop();
-    }
-
-    /// An O word of a contour; modes that were saved in it are forgotten.
-    pub(super) fn contour_word(&mut self, word: &super::oword::OWord) -> Result<After, Fault> {
-        let after = self.flow.obey(word, &mut self.state, &mut self.stack)?;
-        if after == After::Returned {
-            self.state.saved.pop();
-        }
-        Ok(after)
-    }
-
-    /// Computes the words of a row of a contour; returns how many diagnostics there were before.
-    pub(super) fn fill_request(&mut self, row: &Row) -> usize {
-        let (source, before) = (self.flow.files.source(), self.diags.len());
-        self.state.line = row.line;
-        self.request.fill(row, source, &self.flow.code, &mut self.state, &mut self.stack, &mut self.diags);
-        before
-    }
-
-    /// Modes and place of the contour.
-    pub(super) fn modal_mut(&mut self) -> &mut Modal {
-        &mut self.state.modal
-    }
-
     /// M99 in the main program starts it anew.
     fn again(&mut self) {
         if self.state.options.drop_in {
@@ -491,70 +409,6 @@ impl Interpreter {
         self.diags.extend(found.into_iter().map(|(_, fault)| fault.diag(source)));
     }
 }
-
-impl Interpreter {
-    /// The same as `next`, but the command is looked at where it stands, which saves a copy. It is gone with the next call.
-    pub fn next_ref(&mut self) -> Option<Result<&Step, Box<Diag>>> {
-        self.go_past_seen();
-        if self.queue.is_empty()
-            && let Some(diag) = self.fill_queue()
-        {
-            return Some(Err(diag));
-        }
-        self.seen = !self.queue.is_empty();
-        self.queue.front().map(Ok)
-    }
-
-    fn go_past_seen(&mut self) {
-        if std::mem::take(&mut self.seen) {
-            let moves = |s: &Step| matches!(s.command, Canon::StraightFeed(_) | Canon::StraightTraverse(_) | Canon::ArcFeed(_));
-            let owns_nothing = self.queue.front().is_some_and(moves);
-            let step = self.queue.pop_front();
-            if owns_nothing {
-                // There is nothing to free, and without the look at it the step need not be copied out of the queue.
-                std::mem::forget(step);
-            }
-        }
-    }
-
-    /// Reads rows until there is a command or the program has ended; or the error of the row.
-    fn fill_queue(&mut self) -> Option<Box<Diag>> {
-        loop {
-            if !self.queue.is_empty() {
-                return None;
-            }
-            if let Some(diag) = self.failed.take() {
-                return Some(diag);
-            }
-            if self.ended {
-                return None;
-            }
-            self.advance();
-            if !self.diags.is_empty() {
-                self.failed = self.diags.drain(..).find(|d| d.severity == Severity::Error).map(Box::new);
-                self.ended |= self.failed.is_some();
-            }
-        }
-    }
-}
-
-impl Iterator for Interpreter {
-    type Item = Result<Step, Box<Diag>>;
-
-    /// The next command, or the error of the next block: then nothing of that block has been given out (in the drop-in form: what stands
-    /// before the error), and nothing follows. Warnings are left to [`check`].
-    fn next(&mut self) -> Option<Self::Item> {
-        self.go_past_seen();
-        if self.queue.is_empty()
-            && let Some(diag) = self.fill_queue()
-        {
-            return Some(Err(diag));
-        }
-        self.queue.pop_front().map(Ok)
-    }
-}
-
-impl std::iter::FusedIterator for Interpreter {}
 
 fn prologue(state: &State, options: &Options) -> Vec<Canon> {
     let modal = &state.modal;

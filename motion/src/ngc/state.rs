@@ -178,7 +178,6 @@ impl State {
         match what {
             P::VersionMajor => 2.9,
             P::VersionMinor | P::Task | P::RemapLevel | P::U | P::V | P::W => 0.0,
-            P::AbsoluteU | P::AbsoluteV | P::AbsoluteW => 0.0,
             P::Line => f64::from(self.line),
             P::MotionMode => m.motion.map_or(800.0, |motion| f64::from(motion.code())),
             P::Plane => match m.plane {

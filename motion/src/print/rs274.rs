@@ -160,6 +160,7 @@ fn switch(command: &Canon, table_unit: f64) -> String {
         Canon::SetMotionOutputValue(i, v) => format!("SET_MOTION_OUTPUT_VALUE({i},{v:.6})"),
         Canon::SetAuxOutputValue(i, v) => format!("SET_AUX_OUTPUT_VALUE({i},{v:.6})"),
         Canon::Comment(text) => format!("COMMENT(\"{text}\")"),
+        Canon::Remark(text) => format!("COMMENT(\"interpreter: {text}\")"),
         Canon::Message(text) => format!("MESSAGE(\"{text}\")"),
         Canon::Log(text) => format!("LOG(\"{text}\")"),
         Canon::LogOpen(text) => format!("LOGOPEN(\"{text}\")"),

@@ -109,9 +109,9 @@ impl Run<'_, '_> {
     }
 
     /// What LinuxCNC says in its listing of a mode that no canonical command shows.
-    pub fn say(&mut self, what: &str) {
+    pub fn say(&mut self, what: &'static str) {
         if self.state.options.drop_in {
-            self.emit(Canon::Comment(format!("interpreter: {what}")));
+            self.emit(Canon::Remark(what));
         }
     }
 

@@ -173,12 +173,8 @@ impl Flow {
 
     fn end_sub(&mut self, key: Key, word: &OWord, state: &mut State, stack: &mut Stack) -> Result<After, Fault> {
         let Some(frame) = self.frames.last().copied() else {
-            if word.keyword == Keyword::Return {
-                // LinuxCNC takes the value and goes on.
-                state.params.returned = self.argument(word.args, state, stack)?;
-                return Ok(After::Next);
-            }
-            return Err(misfit(word.place, "an endsub outside of a subroutine", "it stands behind a sub with the same label"));
+            let text = if word.keyword == Keyword::Return { "a return" } else { "an endsub" };
+            return Err(misfit(word.place, &format!("{text} outside of a subroutine"), "it stands between sub and endsub"));
         };
         // A return may carry any label: there is but one subroutine that it can leave.
         if frame.key != key && word.keyword == Keyword::EndSub {
@@ -212,6 +208,19 @@ impl Flow {
         }
         self.files.go(frame.back);
         true
+    }
+
+    /// Leaves all calls at once, behind the outermost one.
+    pub fn unwind(&mut self, state: &mut State) {
+        let Some(outermost) = self.frames.first().copied() else { return };
+        while let Some(frame) = self.frames.pop() {
+            if frame.program.is_none() {
+                state.params.leave();
+            }
+            state.saved.pop();
+        }
+        self.blocks.truncate(outermost.blocks);
+        self.files.go(outermost.back);
     }
 
     fn branch(&mut self, key: Key, word: &OWord, state: &mut State, stack: &mut Stack) -> Result<(), Fault> {

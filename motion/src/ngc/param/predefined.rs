@@ -63,9 +63,6 @@ predefined! {
     AbsoluteA "_abs_a" "Machine coordinate.";
     AbsoluteB "_abs_b" "Machine coordinate.";
     AbsoluteC "_abs_c" "Machine coordinate.";
-    AbsoluteU "_abs_u" "Machine coordinate.";
-    AbsoluteV "_abs_v" "Machine coordinate.";
-    AbsoluteW "_abs_w" "Machine coordinate.";
     CurrentTool "_current_tool" "Tool in the spindle.";
     CurrentPocket "_current_pocket" "Its pocket.";
     SelectedTool "_selected_tool" "Tool of the last T word.";

@@ -44,7 +44,7 @@ fn bad_label(cursor: &Cursor, from: usize) -> Fault {
 }
 
 fn keyword(cursor: &mut Cursor, from: usize, label: Label) -> Result<Keyword, Fault> {
-    if cursor.peek().is_none() && matches!(label, Label::Number(_)) {
+    if cursor.peek().is_none() && matches!(label, Label::Number(_) | Label::Name(_)) {
         return Ok(Keyword::Program);
     }
     let rest = cursor.rest();
