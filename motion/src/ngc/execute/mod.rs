@@ -197,21 +197,21 @@ impl Run<'_, '_> {
         if let Some(Action::Control(control)) = self.request.code(Group::Control) {
             self.control(control)?;
         }
-        if let Some(Action::Distance(distance)) = self.request.code(Group::Distance) {
-            if std::mem::replace(&mut self.modal().distance, distance) != distance {
-                self.say(match distance {
-                    Distance::Absolute => "distance mode changed to absolute",
-                    Distance::Incremental => "distance mode changed to incremental",
-                });
-            }
+        if let Some(Action::Distance(distance)) = self.request.code(Group::Distance)
+            && std::mem::replace(&mut self.modal().distance, distance) != distance
+        {
+            self.say(match distance {
+                Distance::Absolute => "distance mode changed to absolute",
+                Distance::Incremental => "distance mode changed to incremental",
+            });
         }
-        if let Some(Action::ArcDistance(distance)) = self.request.code(Group::ArcDistance) {
-            if std::mem::replace(&mut self.modal().arc_distance, distance) != distance {
-                self.say(match distance {
-                    Distance::Absolute => "IJK distance mode changed to absolute",
-                    Distance::Incremental => "IJK distance mode changed to incremental",
-                });
-            }
+        if let Some(Action::ArcDistance(distance)) = self.request.code(Group::ArcDistance)
+            && std::mem::replace(&mut self.modal().arc_distance, distance) != distance
+        {
+            self.say(match distance {
+                Distance::Absolute => "IJK distance mode changed to absolute",
+                Distance::Incremental => "IJK distance mode changed to incremental",
+            });
         }
         if let Some(Action::Retract(retract)) = self.request.code(Group::Retract) {
             self.modal().retract = retract;

@@ -1,6 +1,6 @@
 //! Fanuc-style dialects for milling and turning (R1-32..R1-103, book appendix A, R2-340..R2-343).
 //!
-//! A program has its own reader and flow ([`reader`], [`flow`]), variables ([`vars`]) and code tables ([`table`]); a block ([`block`]) becomes
+//! A program has its own reader and flow ([`reader`], [`flow`]), variables (`vars`) and code tables ([`table`]); a block ([`block`]) becomes
 //! moves in work coordinates and blocks of the kernel ([`kernel`]), so that compensation, tools, limits and canonical commands are the same as
 //! in RS274/NGC. Runs: background. Invariant: one row at a time, calls, loops, passes and points bounded.
 
