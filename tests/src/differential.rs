@@ -1,6 +1,6 @@
 //! Many generated programs on both engines: who was refused, who faulted, where the engines differ.
 
-use crate::generate::{Shape, program};
+use crate::generate::fuzzed;
 use crate::plc::Plc;
 use std::any::Any;
 use std::collections::BTreeMap;
@@ -36,7 +36,7 @@ pub struct Tally {
 
 /// Compiles the program of a seed and runs `scans` scans, 10 ms apart.
 pub fn run(seed: u64, scans: i64) -> Outcome {
-    let result = catch_unwind(AssertUnwindSafe(|| run_text(&program(seed, Shape::of(seed)), scans)));
+    let result = catch_unwind(AssertUnwindSafe(|| run_text(&fuzzed(seed), scans)));
     result.unwrap_or_else(|why| Outcome::Broken(message(&*why)))
 }
 

@@ -1,7 +1,7 @@
 //! Bodies of the fuzz targets: what must hold for any bytes from outside. `fuzz/` calls them under libFuzzer, a test with random bytes.
 
 use crate::differential::{Outcome, run};
-use crate::generate::{Shape, program};
+use crate::generate::fuzzed;
 use takt_base::diag::render;
 use takt_base::{Severity, SourceId, Sources};
 use takt_compiler::driver::{File, Project, compile};
@@ -51,6 +51,6 @@ pub fn seed(bytes: &[u8]) {
     number[..length].copy_from_slice(&bytes[..length]);
     let seed = u64::from_le_bytes(number);
     if let Outcome::Refused(why) | Outcome::Broken(why) = run(seed, 3) {
-        panic!("seed {seed}: {why}\n{}", program(seed, Shape::of(seed)));
+        panic!("seed {seed}: {why}\n{}", fuzzed(seed));
     }
 }

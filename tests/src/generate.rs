@@ -65,13 +65,18 @@ impl Default for Shape {
 
 impl Shape {
     /// Of the program of a seed in a fuzz run: most are small, since many small programs find more in the same time than few large ones.
-    pub fn of(seed: u64) -> Self {
+    fn of(seed: u64) -> Self {
         match seed % 8 {
             0 => Shape::default(),
             1 => Shape { statements: 24, scalars: 8, units: 0 },
             _ => Shape { statements: 3, scalars: 8, units: 1 },
         }
     }
+}
+
+/// The program of a seed in a fuzz run.
+pub fn fuzzed(seed: u64) -> String {
+    program(seed, Shape::of(seed))
 }
 
 /// The text of a program of this seed; the instance is called `main`.

@@ -1,7 +1,7 @@
 //! Random ST programs: the compiler takes each, and interpreter and native code agree scan by scan, byte by byte.
 
 use takt_tests::differential::run_many;
-use takt_tests::generate::{Shape, program};
+use takt_tests::generate::fuzzed;
 
 /// Programs by default; `TAKT_PROGRAMS` sets another number, `TAKT_SEED` the first seed.
 const PROGRAMS: u64 = 400;
@@ -18,7 +18,7 @@ fn interpreter_and_native_code_agree() {
     for (seed, why) in tally.failures.iter().take(20) {
         println!("seed {seed}: {why}\n");
     }
-    let first = tally.failures.first().map(|(seed, _)| program(*seed, Shape::of(*seed)));
+    let first = tally.failures.first().map(|(seed, _)| fuzzed(*seed));
     assert_eq!(tally.failures.len(), 0, "{}", first.unwrap_or_default());
     assert!(10 * tally.ended >= 6 * tally.programs, "too many programs fault: {tally:?}");
 }

@@ -217,7 +217,7 @@ impl Builder<'_> {
             self.step_to(&mut target, *part, span)?;
         }
         let kept = std::mem::take(&mut self.place_only);
-        let reference = matches!(self.pointee(late.ty), Some((_, takt_image::types::PointerKind::Reference)));
+        let reference = self.bound_type(late.ty).is_some();
         let value = if reference { self.bound_value(&late.value, late.ty) } else { self.value(&late.value, late.ty) };
         self.place_only = kept;
         (value.ty != self.error).then_some(Stmt { kind: StmtKind::Assign { target, value }, span })

@@ -34,6 +34,11 @@ impl Builder<'_> {
         if let Type::Pointer { target, kind } = *self.ty(ty) { Some((target, kind)) } else { None }
     }
 
+    /// The type of what a REFERENCE TO of this type is bound to.
+    pub fn bound_type(&self, ty: TypeId) -> Option<TypeId> {
+        if let Type::Pointer { target, kind: PointerKind::Reference } = *self.ty(ty) { Some(target) } else { None }
+    }
+
     /// A type that is only referred to: structures and function blocks are not looked into.
     fn referred_type(&mut self, t: &ast::TypeRef) -> TypeId {
         if let ast::TypeRefKind::Named(name) = &t.kind
@@ -120,7 +125,7 @@ impl Builder<'_> {
 
     /// A REFERENCE TO stands for what it is bound to.
     pub(super) fn through_references(&mut self, mut target: Target) -> Target {
-        while let Some((ty, PointerKind::Reference)) = self.pointee(target.place.ty) {
+        while let Some(ty) = self.bound_type(target.place.ty) {
             target.place.path.push(Step::Deref);
             target.place.ty = ty;
             target.access = Access::Write;
@@ -130,7 +135,7 @@ impl Builder<'_> {
 
     /// The result of a call that is a REFERENCE TO stands for what it is bound to.
     pub(super) fn through_reference(&mut self, o: Operand) -> Operand {
-        if !matches!(self.pointee(o.expr.ty), Some((_, PointerKind::Reference))) {
+        if self.bound_type(o.expr.ty).is_none() {
             return o;
         }
         let span = o.expr.span;
@@ -147,7 +152,7 @@ impl Builder<'_> {
         if self.is_bad(&o) {
             return None;
         }
-        if !matches!(self.pointee(o.expr.ty), Some((_, PointerKind::Reference))) {
+        if self.bound_type(o.expr.ty).is_none() {
             self.no_place(span);
             return None;
         }

@@ -5,7 +5,6 @@ use crate::hir::convert::Operand;
 use crate::hir::model::*;
 use crate::syntax::ast;
 use takt_base::{Code, Diag, Span};
-use takt_image::types::PointerKind;
 
 /// An argument for a parameter.
 #[derive(Clone, Copy)]
@@ -120,7 +119,7 @@ impl Builder<'_> {
     pub(in crate::hir) fn input(&mut self, id: PouId, var: VarId, e: &ast::Expr) -> Expr {
         let v = &self.hir.pous[id].vars[var];
         let (ty, note) = (v.ty, (v.span, format!("input `{}` is {}", v.name, self.show(v.ty))));
-        if matches!(self.pointee(ty), Some((_, PointerKind::Reference))) {
+        if self.bound_type(ty).is_some() {
             return self.bound_value(e, ty);
         }
         let o = self.operand(e, Some(ty));

@@ -8,7 +8,7 @@ use crate::hir::scope::Local;
 use crate::syntax::ast::{self, Accessor, ExprKind as E, Name};
 use takt_base::{Code, Diag, Span};
 use takt_image::TypeId;
-use takt_image::types::{PointerKind, Section, Type};
+use takt_image::types::{Section, Type};
 
 impl Builder<'_> {
     /// Cheap test before anything is looked up.
@@ -48,7 +48,7 @@ impl Builder<'_> {
     /// The type of what stands there; of a REFERENCE TO, that of what it is bound to.
     fn static_type(&self, e: &ast::Expr) -> Option<TypeId> {
         let mut ty = self.raw_type(e)?;
-        while let Some((target, PointerKind::Reference)) = self.pointee(ty) {
+        while let Some(target) = self.bound_type(ty) {
             ty = target;
         }
         Some(ty)
@@ -91,10 +91,11 @@ impl Builder<'_> {
         Some(pou.vars[pou.result?].ty)
     }
 
-    /// True for a property whose value is a REFERENCE TO.
+    /// True for `x.p`, a property whose value is a REFERENCE TO.
     pub(in crate::hir) fn gives_reference(&self, e: &ast::Expr) -> bool {
-        let of_reference = |ty: TypeId| matches!(self.pointee(ty), Some((_, PointerKind::Reference)));
-        self.may_be_property(e) && self.property_of(e).is_some() && self.raw_type(e).is_some_and(of_reference)
+        let E::Member(_, name) = &e.kind else { return false };
+        let unit = if self.may_be_property(e) { self.property_of(e) } else { None };
+        unit.and_then(|unit| self.getter_type(unit, name)).is_some_and(|ty| self.bound_type(ty).is_some())
     }
 
     /// The property as a value; `None` if the expression is something else.

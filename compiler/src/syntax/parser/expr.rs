@@ -52,6 +52,15 @@ impl Parser<'_> {
         self.binary(1).expr
     }
 
+    /// `a, b, c`.
+    pub(super) fn exprs(&mut self) -> Vec<Expr> {
+        let mut list = vec![self.expr()];
+        while !self.lost && self.eat(Tok::Comma) {
+            list.push(self.expr());
+        }
+        list
+    }
+
     /// What a statement starts with: a name and what follows it, no operators.
     pub(super) fn variable(&mut self) -> Expr {
         let start = self.here();

@@ -58,10 +58,7 @@ impl Parser<'_> {
         }
         let start = self.here();
         self.bump();
-        let mut list = vec![self.expr()];
-        while !self.lost && self.eat(Tok::Comma) {
-            list.push(self.expr());
-        }
+        let list = self.exprs();
         self.closing(Tok::RParen, ")", start);
         Init::Positional(list, self.since(start))
     }

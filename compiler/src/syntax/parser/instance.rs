@@ -107,10 +107,7 @@ impl Parser<'_> {
     fn path_index(&mut self) -> Option<PathPart> {
         let open = self.here();
         self.bump();
-        let mut list = vec![self.expr()];
-        while !self.lost && self.eat(Tok::Comma) {
-            list.push(self.expr());
-        }
+        let list = self.exprs();
         self.closing(Tok::RBracket, "]", open);
         (!self.lost).then(|| PathPart::Index(list, self.since(open)))
     }
