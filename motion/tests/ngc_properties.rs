@@ -149,12 +149,25 @@ fn wild_programs_end_with_a_message() {
         ("F1 G81 X1 Z-5 R1 L9999999", Code::BadValue),
         ("M3 S1 G76 P1 Z-5 I-1 J0.0000001 K9", Code::BadValue),
         ("o1 if [1]\no2 if [1]\no1 endif", Code::BadFlow),
+        // A peck that is less than the distance of two numbers at this place.
+        ("F1 G83 X0 Y0 R1000000000000 Z999999999999.999 Q0.00001", Code::BadValue),
+        // The loop of the caller is none of the subroutine's.
+        ("o2 sub\no1 endrepeat\no2 endsub\no1 repeat [3]\no2 call\no1 endrepeat", Code::BadFlow),
     ];
     for (text, want) in cases {
         let error = Interpreter::new(SourceId(0), text, Options::default()).find_map(Result::err);
         assert_eq!(error.map(|d| d.code), Some(want), "{text}");
         assert!(check(SourceId(0), text, Options::default()).iter().any(|d| d.code == want), "{text}");
     }
+}
+
+/// Modes that the main program saved are there when M98 has called a subroutine twice.
+#[test]
+fn repeated_calls_leave_saved_modes_alone() {
+    let text = "o100 sub\nG0 Y1\no100 endsub\nG90 M70\nM98 P100 L2\nG91\nM72\nG0 X1\nX1\nM2";
+    let last =
+        steps(text).into_iter().filter_map(|s| if let Canon::StraightTraverse(p) = s.command { Some(p) } else { None }).last();
+    assert_eq!(last.map(|p| (p.x, p.y)), Some((1.0, 1.0)));
 }
 
 /// M99 in the main program starts it anew, for ever; a check reads it once.

@@ -27,7 +27,6 @@ type Result<T> = std::result::Result<T, Box<Diag>>;
 struct Job {
     tenths: u16,
     at: Span,
-    place: (u32, u32),
     line: u32,
     n: Option<u32>,
     sub: Word,
@@ -43,12 +42,12 @@ impl Interpreter {
     pub(super) fn contour_cycle(&mut self, tenths: u16, row: &super::code::Row) {
         let done = self.contour_job(tenths, row).and_then(|job| self.contour_moves(&job));
         if let Err(diag) = done {
-            self.note(*diag);
+            self.diags.push(*diag);
         }
     }
 
     fn contour_job(&self, tenths: u16, row: &super::code::Row) -> Result<Job> {
-        let (request, modal) = (self.request_ref(), &self.state().modal);
+        let (request, modal) = (&self.request, &self.state().modal);
         let at = request.motion_span();
         let name = Motion::Contour(tenths).text();
         let refuse = |label: String, help| Err(Box::new(not_now(at, label, help)));
@@ -74,8 +73,8 @@ impl Interpreter {
         let increment = request.word('I').unwrap_or(Word { letter: 'I', value: 1.0, span: at });
         let finish = [value('D', 0.0), value('E', 0.0), value('P', 1.0).trunc()];
         let retract = value('R', 0.5);
-        let (place, line, n, start) = ((at.start, at.end), row.line, row.n, start.into());
-        Ok(Job { tenths, at, place, line, n, sub, start, finish, increment, retract })
+        let (line, n, start) = (row.line, row.n, start.into());
+        Ok(Job { tenths, at, line, n, sub, start, finish, increment, retract })
     }
 
     fn contour_moves(&mut self, job: &Job) -> Result<()> {
@@ -186,12 +185,12 @@ impl Interpreter {
     fn read_contour(&mut self, number: u32, job: &Job) -> Result<Vec<Curve>> {
         let modal = self.state().modal;
         let source = job.at.source;
-        let depth = self.flow_mut().depth();
-        self.enter_sub(number, job.place).map_err(|fault| Box::new(fault.diag(source)))?;
+        let depth = self.flow.depth();
+        self.enter_sub(number, (job.at.start, job.at.end)).map_err(|fault| Box::new(fault.diag(source)))?;
         let mut curves: Vec<Option<Curve>> = Vec::new();
         let mut done = Err(contour_fault(job.at, "the contour does not end", "end the subroutine with endsub"));
         for _ in 0..ROWS_MAX {
-            let row = match self.flow_mut().next_row() {
+            let row = match self.flow.next_row() {
                 Next::Row(row) => row,
                 Next::Wrong(fault, _) => {
                     done = Err(Box::new(fault.diag(source)));
@@ -201,16 +200,16 @@ impl Interpreter {
             };
             match self.contour_row(&row, &mut curves) {
                 Err(diag) => done = Err(diag),
-                Ok(Some(After::Returned)) if self.flow_mut().depth() <= depth => done = Ok(()),
+                Ok(Some(After::Returned(_))) if self.flow.depth() <= depth => done = Ok(()),
                 Ok(_) => continue,
             }
             break;
         }
-        while self.flow_mut().depth() > depth {
+        while self.flow.depth() > depth {
             self.leave_sub();
         }
         let last = self.state().modal.motion;
-        *self.modal_mut() = super::modal::Modal { motion: last, ..modal };
+        self.state.modal = super::modal::Modal { motion: last, ..modal };
         done?;
         Ok(curves.into_iter().flatten().collect())
     }
@@ -218,14 +217,14 @@ impl Interpreter {
     /// One row of a contour.
     fn contour_row(&mut self, row: &super::code::Row, curves: &mut Vec<Option<Curve>>) -> Result<Option<After>> {
         if let Some(word) = &row.oword {
-            let source = self.flow_mut().files.source();
+            let source = self.flow.files.source();
             return self.contour_word(word).map(Some).map_err(|fault| Box::new(fault.diag(source)));
         }
         let before = self.fill_request(row);
         if let Some(error) = self.take_error(before) {
             return Err(Box::new(error));
         }
-        let request = self.request_ref();
+        let request = &self.request;
         let Some(motion) = request.motion else { return Ok(None) };
         if !matches!(motion, Motion::Rapid | Motion::Linear | Motion::ArcCw | Motion::ArcCcw) {
             let at = request.motion_span();
@@ -247,7 +246,7 @@ impl Interpreter {
         let leads = curves.is_empty();
         curves.push(curve.filter(|_| !leads));
         let flat_end = from_plane([to[0], to[1], modal.position.y], Plane::Xz, modal.position);
-        let modal = self.modal_mut();
+        let modal = &mut self.state.modal;
         (modal.position, modal.motion) = (flat_end, Some(motion));
         Ok(None)
     }
@@ -271,7 +270,7 @@ impl Interpreter {
 
     /// The first error behind `before`.
     fn take_error(&mut self, before: usize) -> Option<Diag> {
-        let diags = self.diags_mut();
+        let diags = &mut self.diags;
         let i = diags[before..].iter().position(|d| d.severity == Severity::Error)?;
         let error = diags.remove(before + i);
         diags.truncate(before);

@@ -24,7 +24,7 @@ use super::modal::Modal;
 use super::options::Options;
 use super::outside;
 use super::request::Request;
-use super::state::State;
+use super::state::{SavedModes, State};
 use super::text::Text;
 use crate::canon::{Canon, FeedReference, ProgramEnd, Step};
 use std::collections::VecDeque;
@@ -36,12 +36,12 @@ use takt_base::{Code, Diag, Severity, SourceId, Span};
 pub struct Interpreter {
     pub(super) flow: Flow,
     pub(super) state: State,
-    request: Request,
+    pub(super) request: Request,
     stack: Stack,
     pub(super) queue: VecDeque<Step>,
     /// The first command of the queue has been looked at.
     seen: bool,
-    diags: Vec<Diag>,
+    pub(super) diags: Vec<Diag>,
     /// A row that waits for PLC variables.
     pub(super) held: Option<Row>,
     failed: Option<Box<Diag>>,
@@ -131,8 +131,7 @@ impl Interpreter {
     /// # Errors
     /// The program has fewer lines, or can't be read.
     pub fn seek(&mut self, line: u32) -> Result<(), Box<Diag>> {
-        self.flow.leave_all();
-        self.state.params.leave_all();
+        self.flow.leave_all(&mut self.state);
         (self.opened, self.percent, self.seen) = (true, true, false);
         self.queue.clear();
         self.state.comp.reset();
@@ -229,7 +228,7 @@ impl Interpreter {
             self.comments(row);
             let back = (self.flow.files.spot(), self.flow.here());
             match self.flow.obey(word, &mut self.state, &mut self.stack) {
-                Ok(After::Returned) => self.returned(row),
+                Ok(After::Returned(saved)) => self.returned(saved, row),
                 Ok(After::Next) => {}
                 Err(_) if self.asks_again(row, back) => {}
                 Err(fault) => self.fail(fault),
@@ -311,14 +310,11 @@ impl Interpreter {
                 }
             }
             Then::Contour(tenths) => self.contour_cycle(tenths, row),
-            Then::Return => {
-                let depth = self.flow.depth();
-                if !self.flow.leave(&mut self.state) {
-                    self.again();
-                } else if self.flow.depth() < depth {
-                    self.returned(row);
-                }
-            }
+            Then::Return => match self.flow.leave(&mut self.state) {
+                None => self.again(),
+                Some(After::Returned(saved)) => self.returned(saved, row),
+                Some(After::Next) => {}
+            },
         }
     }
 
@@ -337,15 +333,12 @@ impl Interpreter {
     }
 
     /// A subroutine has ended: modes that it saved for that come back.
-    fn returned(&mut self, row: &Row) {
-        if let Some(Some(saved)) = self.state.saved.pop()
+    fn returned(&mut self, saved: Option<Box<SavedModes>>, row: &Row) {
+        if let Some(saved) = saved
             && saved.automatic
         {
             let mut out = Out { queue: &mut self.queue, diags: &mut self.diags, block: self.block, line: row.line, n: row.n };
             execute::restore(&mut self.state, &self.request, &mut out, &saved.modal);
-        }
-        if self.state.saved.is_empty() {
-            self.state.saved.push(None);
         }
     }
 
@@ -406,7 +399,7 @@ impl Interpreter {
     fn take_found(&mut self) {
         let source = self.flow.files.source();
         let found = std::mem::take(&mut self.flow.found);
-        self.diags.extend(found.into_iter().map(|(_, fault)| fault.diag(source)));
+        self.diags.extend(found.into_iter().map(|fault| fault.diag(source)));
     }
 }
 

@@ -73,7 +73,9 @@ impl Cycle<'_, '_, '_> {
         let request = self.run.request;
         let help = "write the depth of a peck, such as Q2";
         let Some(q) = self.words.q else { return Err(Box::new(missing(request.motion_span(), "Q").help(help))) };
-        if q <= 0.0 || (self.r - self.bottom) / q * f64::from(self.repeats) > PECKS_MAX {
+        // Far from zero a peck may be less than the distance of two numbers: the tool would never get to the bottom.
+        let vanishes = self.r - q >= self.r || self.bottom + q <= self.bottom;
+        if q <= 0.0 || vanishes || (self.r - self.bottom) / q * f64::from(self.repeats) > PECKS_MAX {
             let word = request.word('Q');
             let diag = word.map(|w| bad_value(w, "no depth of a peck", help));
             return Err(Box::new(diag.unwrap_or_else(|| missing(request.motion_span(), "Q").help(help))));

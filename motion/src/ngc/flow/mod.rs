@@ -12,6 +12,7 @@ use super::lenient;
 use super::lines::{Place, trimmed};
 use super::param::Name;
 use super::reader::Reader;
+use super::state::State;
 use super::text;
 use files::{Files, Spot};
 use std::collections::HashMap;
@@ -86,7 +87,7 @@ pub struct Flow {
     /// Errors of rows that are not executed are looked for too.
     pub thorough: bool,
     /// Errors found in rows that are not executed.
-    pub found: Vec<(u32, Fault)>,
+    pub found: Vec<Fault>,
     /// Takes files as users stream them.
     pub lenient: bool,
     /// What was passed over.
@@ -151,20 +152,16 @@ impl Flow {
     /// The next row. A row of a straight program is forgotten when the next one is read.
     pub fn next_row(&mut self) -> Next {
         self.here = self.files.lines().place;
-        if !self.keeps() {
-            let mark = self.code.kept_mark();
-            self.code.truncate(mark);
-            return self.read();
-        }
-        let key = (self.files.at, self.here.key());
-        if let Some((row, next)) = self.kept.get(key) {
+        let (keeps, key) = (self.keeps(), (self.files.at, self.here.key()));
+        if keeps && let Some((row, next)) = self.kept.get(key) {
             self.files.lines().place = next;
             return Next::Row(*row);
         }
         let mark = self.code.kept_mark();
         self.code.truncate(mark);
         let next = self.read();
-        if let Next::Row(row) = &next
+        if keeps
+            && let Next::Row(row) = &next
             && self.kept.keep(key, row, self.files.lines().place, &self.code)
         {
             self.code.keep();
@@ -203,19 +200,22 @@ impl Flow {
     }
 
     /// Ends all calls and blocks.
-    pub fn leave_all(&mut self) {
-        self.frames.clear();
+    pub fn leave_all(&mut self, state: &mut State) {
+        self.unwind(state);
         self.blocks.clear();
     }
 
+    /// The first block of the call at hand.
+    fn base(&self) -> usize {
+        self.frames.last().map_or(0, |f| f.blocks)
+    }
+
     fn top(&self) -> Option<(Key, Open)> {
-        let base = self.frames.last().map_or(0, |f| f.blocks);
-        (self.blocks.len() > base).then(|| self.blocks[self.blocks.len() - 1])
+        (self.blocks.len() > self.base()).then(|| self.blocks[self.blocks.len() - 1])
     }
 
     fn open(&mut self, key: Key, open: Open, place: (u32, u32)) -> Result<(), Fault> {
-        let base = self.frames.last().map_or(0, |f| f.blocks);
-        if self.blocks.len() - base >= BLOCKS_MAX {
+        if self.blocks.len() - self.base() >= BLOCKS_MAX {
             return Err(misfit(place, "more than 1000 blocks are open", "close them, or call a subroutine"));
         }
         self.blocks.push((key, open));

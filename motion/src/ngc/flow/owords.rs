@@ -7,17 +7,17 @@ use crate::ngc::expr::run::{self, Stack};
 use crate::ngc::fault::Fault;
 use crate::ngc::lines::Place;
 use crate::ngc::oword::{Keyword, Label, OWord};
-use crate::ngc::state::State;
+use crate::ngc::state::{SavedModes, State};
 use crate::ngc::word::whole;
 use takt_base::Code;
 
 /// What the interpreter has to do behind an O word.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Debug)]
 pub enum After {
     /// Nothing.
     Next,
-    /// A subroutine has ended.
-    Returned,
+    /// A subroutine has ended; the modes that it saved.
+    Returned(Option<Box<SavedModes>>),
 }
 
 impl Flow {
@@ -33,7 +33,7 @@ impl Flow {
             Keyword::Return | Keyword::EndSub => return self.end_sub(key, word, state, stack),
             Keyword::If => self.branch(key, word, state, stack)?,
             Keyword::ElseIf | Keyword::Else => self.after_branch(key, word)?,
-            Keyword::EndIf => self.close(key, word, |open| matches!(open, Open::If))?,
+            Keyword::EndIf => self.close_branch(key, word)?,
             Keyword::While => self.while_(key, word, state, stack)?,
             Keyword::EndWhile => self.end_while(key, word)?,
             Keyword::Do => {
@@ -141,9 +141,7 @@ impl Flow {
             return Ok(spot);
         }
         for file in [self.files.at, 0] {
-            if self.files.index_now(file) {
-                self.index(file)?;
-            }
+            self.index(file)?;
         }
         if let Some(&spot) = self.subs.get(&key) {
             return Ok(spot);
@@ -154,7 +152,6 @@ impl Flow {
         };
         if let Some((source, text)) = state.options.host.open_text(&name)
             && let Some(file) = self.files.add(source, text)
-            && self.files.index_now(file)
         {
             self.index(file)?;
         }
@@ -164,10 +161,16 @@ impl Flow {
         })
     }
 
+    /// Looks for the subroutines of a text, once.
     fn index(&mut self, file: u32) -> Result<(), Fault> {
-        let back = std::mem::replace(&mut self.files.at, file);
+        if !self.files.index_now(file) {
+            return Ok(());
+        }
+        let (back, thorough) = (self.files.spot(), std::mem::replace(&mut self.thorough, false));
+        self.files.go(Spot { file, place: Place::default() });
         let indexed = self.index_subs();
-        self.files.at = back;
+        self.thorough = thorough;
+        self.files.go(back);
         indexed
     }
 
@@ -185,13 +188,12 @@ impl Flow {
             ));
         }
         state.params.returned = self.argument(word.args, state, stack)?;
-        self.leave(state);
-        Ok(After::Returned)
+        Ok(self.leave(state).unwrap_or(After::Next))
     }
 
-    /// M99, or the end of a subroutine. False in the main program.
-    pub fn leave(&mut self, state: &mut State) -> bool {
-        let Some(frame) = self.frames.last_mut() else { return false };
+    /// M99, or the end of a subroutine: back to the caller, or the next turn of M98. `None` in the main program.
+    pub fn leave(&mut self, state: &mut State) -> Option<After> {
+        let frame = self.frames.last_mut()?;
         self.blocks.truncate(frame.blocks);
         if let Some(left) = &mut frame.program
             && *left > 1
@@ -199,7 +201,7 @@ impl Flow {
             *left -= 1;
             let start = frame.start;
             self.files.go(start);
-            return true;
+            return Some(After::Next);
         }
         let frame = *frame;
         self.frames.pop();
@@ -207,7 +209,7 @@ impl Flow {
             state.params.leave();
         }
         self.files.go(frame.back);
-        true
+        Some(After::Returned(state.saved.pop().flatten()))
     }
 
     /// Leaves all calls at once, behind the outermost one.
@@ -229,8 +231,7 @@ impl Flow {
         }
         let branches = [Keyword::ElseIf, Keyword::Else, Keyword::EndIf];
         loop {
-            let row = self.skip_to(key, &branches, word.place)?;
-            let Some(next) = row.oword else { return Ok(()) };
+            let next = self.skip_to(key, &branches, word.place)?;
             match next.keyword {
                 Keyword::EndIf => return Ok(()),
                 Keyword::Else => return self.open(key, Open::If, word.place),
@@ -242,13 +243,13 @@ impl Flow {
 
     /// The branch before this one was executed.
     fn after_branch(&mut self, key: Key, word: &OWord) -> Result<(), Fault> {
-        self.close(key, word, |open| matches!(open, Open::If))?;
+        self.close_branch(key, word)?;
         self.skip_to(key, &[Keyword::EndIf], word.place).map(|_| ())
     }
 
-    fn close(&mut self, key: Key, word: &OWord, fits: impl Fn(Open) -> bool) -> Result<(), Fault> {
+    fn close_branch(&mut self, key: Key, word: &OWord) -> Result<(), Fault> {
         match self.top() {
-            Some((top, open)) if top == key && fits(open) => {
+            Some((top, Open::If)) if top == key => {
                 self.blocks.pop();
                 Ok(())
             }
@@ -300,7 +301,8 @@ impl Flow {
     }
 
     fn end_repeat(&mut self, key: Key, word: &OWord) -> Result<(), Fault> {
-        match self.blocks.last_mut() {
+        let base = self.base();
+        match self.blocks[base..].last_mut() {
             Some((top, Open::Repeat(start, left))) if *top == key => {
                 if *left > 1 {
                     *left -= 1;
@@ -317,7 +319,7 @@ impl Flow {
 
     /// The loop with this label, after the blocks inside of it are closed.
     fn find_loop(&mut self, key: Key, word: &OWord) -> Result<Open, Fault> {
-        let base = self.frames.last().map_or(0, |f| f.blocks);
+        let base = self.base();
         let found = self.blocks[base..].iter().rposition(|(k, open)| *k == key && *open != Open::If);
         let Some(i) = found else {
             return Err(misfit(word.place, "no loop with this label is being executed", "write the label of a loop around it"));
@@ -337,8 +339,7 @@ impl Flow {
         match self.find_loop(key, word)? {
             Open::While(start) => self.files.lines().place = start,
             open => {
-                let row = self.skip_to(key, &[end_of(open)], word.place)?;
-                let Some(end) = row.oword else { return Ok(()) };
+                let end = self.skip_to(key, &[end_of(open)], word.place)?;
                 match open {
                     Open::Do(_) => self.while_(key, &end, state, stack)?,
                     _ => self.end_repeat(key, &end)?,

@@ -4,7 +4,7 @@ use super::{Flow, Key, misfit};
 use crate::ngc::code::Row;
 use crate::ngc::fault::Fault;
 use crate::ngc::lines::{Place, trimmed};
-use crate::ngc::oword::{Keyword, Label};
+use crate::ngc::oword::{Keyword, Label, OWord};
 
 /// Ways over rows that are remembered.
 const JUMPS_MAX: usize = 32_768;
@@ -13,22 +13,21 @@ const FOUND_MAX: usize = 10_000;
 
 impl Flow {
     /// Goes to the next row with `key` and one of `keywords`, and reads it. `from` is the O word that asks.
-    pub(super) fn skip_to(&mut self, key: Key, keywords: &[Keyword], from: (u32, u32)) -> Result<Row, Fault> {
+    pub(super) fn skip_to(&mut self, key: Key, keywords: &[Keyword], from: (u32, u32)) -> Result<OWord, Fault> {
         let origin = (self.files.at, self.here.key());
         if let Some(&place) = self.jumps.get(&origin) {
             self.files.lines().place = place;
-            if let super::Next::Row(row) = self.next_row() {
-                return Ok(row);
+            if let super::Next::Row(Row { oword: Some(word), .. }) = self.next_row() {
+                return Ok(word);
             }
         }
         loop {
             let mark = self.code.mark();
-            let Some((row, place)) = self.next_oword()? else {
+            let Some((word, place)) = self.next_oword()? else {
                 let help = "write the O word that ends it, with the same number or name";
                 return Err(misfit(from, "nothing ends this block", help));
             };
-            let Some(word) = row.oword else { continue };
-            if word.keyword == Keyword::Sub && !keywords.contains(&Keyword::Sub) && self.key(word.label) != Some(key) {
+            if word.keyword == Keyword::Sub && self.key(word.label) != Some(key) {
                 return Err(misfit(
                     from,
                     "another subroutine starts before this block ends",
@@ -38,7 +37,7 @@ impl Flow {
             if keywords.contains(&word.keyword) && self.key(word.label) == Some(key) {
                 self.remember(origin, place);
                 self.here = place;
-                return Ok(row);
+                return Ok(word);
             }
             self.code.truncate(mark);
         }
@@ -50,8 +49,8 @@ impl Flow {
         }
     }
 
-    /// The next row with an O word, and where it stands; `None` at the end of the text.
-    fn next_oword(&mut self) -> Result<Option<(Row, Place)>, Fault> {
+    /// The next O word, and where its row stands; `None` at the end of the text.
+    fn next_oword(&mut self) -> Result<Option<(OWord, Place)>, Fault> {
         loop {
             let place = self.files.lines().place;
             let Some(piece) = self.files.next_piece()? else { return Ok(None) };
@@ -65,25 +64,21 @@ impl Flow {
             }
             let mark = self.code.mark();
             match self.reader.read(inside, piece.range.start, piece.line, &mut self.code) {
-                Ok(row) if wanted => return Ok(Some((row, place))),
+                Ok(Row { oword: Some(word), .. }) if wanted => return Ok(Some((word, place))),
                 Ok(_) => self.code.truncate(mark),
-                Err(fault) if self.thorough && self.found.len() < FOUND_MAX => self.found.push((piece.line, fault)),
+                Err(fault) if self.thorough && self.found.len() < FOUND_MAX => self.found.push(fault),
                 Err(_) => {}
             }
         }
     }
 
-    /// All subroutines and program numbers of the text at hand.
+    /// All subroutines and program numbers from here on.
     pub(super) fn index_subs(&mut self) -> Result<(), Fault> {
-        let back = self.files.spot();
-        let thorough = std::mem::replace(&mut self.thorough, false);
-        self.files.lines().place = Place::default();
         self.pass_opening()?;
         loop {
             let mark = self.code.mark();
-            let Some((row, _)) = self.next_oword()? else { break };
-            if let Some(word) = row.oword
-                && matches!(word.keyword, Keyword::Sub | Keyword::Program)
+            let Some((word, _)) = self.next_oword()? else { return Ok(()) };
+            if matches!(word.keyword, Keyword::Sub | Keyword::Program)
                 && let Some(key) = self.key(word.label)
             {
                 let spot = self.files.spot();
@@ -91,9 +86,6 @@ impl Flow {
             }
             self.code.truncate(mark);
         }
-        self.thorough = thorough;
-        self.files.go(back);
-        Ok(())
     }
 
     /// Goes past the `%` that opens a text.

@@ -8,26 +8,6 @@ impl Interpreter {
         (&self.request, &mut self.state, &mut self.queue, &mut self.diags, self.block)
     }
 
-    /// The words of the block.
-    pub(in crate::ngc) fn request_ref(&self) -> &Request {
-        &self.request
-    }
-
-    /// Where the program goes on.
-    pub(in crate::ngc) fn flow_mut(&mut self) -> &mut Flow {
-        &mut self.flow
-    }
-
-    /// What is wrong so far.
-    pub(in crate::ngc) fn diags_mut(&mut self) -> &mut Vec<Diag> {
-        &mut self.diags
-    }
-
-    /// A mistake of a cycle.
-    pub(in crate::ngc) fn note(&mut self, diag: Diag) {
-        self.diags.push(diag);
-    }
-
     /// Enters the subroutine of a contour.
     pub(in crate::ngc) fn enter_sub(&mut self, number: u32, place: (u32, u32)) -> Result<(), Fault> {
         self.flow.call_program(number, 1, place, &mut self.state)
@@ -36,16 +16,11 @@ impl Interpreter {
     /// Leaves it before its end.
     pub(in crate::ngc) fn leave_sub(&mut self) {
         self.flow.leave(&mut self.state);
-        self.state.saved.pop();
     }
 
     /// An O word of a contour; modes that were saved in it are forgotten.
     pub(in crate::ngc) fn contour_word(&mut self, word: &crate::ngc::oword::OWord) -> Result<After, Fault> {
-        let after = self.flow.obey(word, &mut self.state, &mut self.stack)?;
-        if after == After::Returned {
-            self.state.saved.pop();
-        }
-        Ok(after)
+        self.flow.obey(word, &mut self.state, &mut self.stack)
     }
 
     /// Computes the words of a row of a contour; returns how many diagnostics there were before.
@@ -54,10 +29,5 @@ impl Interpreter {
         self.state.line = row.line;
         self.request.fill(row, source, &self.flow.code, &mut self.state, &mut self.stack, &mut self.diags);
         before
-    }
-
-    /// Modes and place of the contour.
-    pub(in crate::ngc) fn modal_mut(&mut self) -> &mut Modal {
-        &mut self.state.modal
     }
 }

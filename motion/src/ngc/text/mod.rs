@@ -12,7 +12,7 @@ pub use window::{Trouble, View, Window};
 
 use file::Stream;
 use std::borrow::Cow;
-use std::io;
+use std::io::{self, Read};
 use std::path::Path;
 use std::sync::{Arc, Mutex, PoisonError};
 use takt_base::source::Excerpt;
@@ -48,8 +48,12 @@ impl Text {
         if about.is_file() && about.len() > WHOLE_MAX {
             return Text::streamed(file);
         }
+        // A pipe or a device does not say how much will come.
         let mut bytes = Vec::new();
-        io::Read::read_to_end(&mut &file, &mut bytes)?;
+        (&file).take(BYTES_MAX + 1).read_to_end(&mut bytes)?;
+        if bytes.len() as u64 > BYTES_MAX {
+            return Err(too_large());
+        }
         Ok(decoded(&bytes).into())
     }
 
@@ -60,10 +64,7 @@ impl Text {
     pub fn streamed(file: impl ReadAt + 'static) -> io::Result<Self> {
         let stream = Stream::new(Box::new(file))?;
         if stream.len() > BYTES_MAX {
-            return Err(io::Error::new(
-                io::ErrorKind::FileTooLarge,
-                "it has more than 4 GiB; split it into programs that call each other",
-            ));
+            return Err(too_large());
         }
         Ok(Text::new(Kind::Streamed(Arc::new(stream))))
     }
@@ -115,7 +116,7 @@ impl Text {
     pub fn lines(&self) -> Result<u32, Trouble> {
         let mut window = Window::default();
         let mut view = View { text: self, file: 0, window: &mut window };
-        let (mut line, mut at) = self.mark_before(|_, _| true);
+        let (mut line, mut at) = self.mark_of(<[u32]>::len);
         while let Some((_, next)) = view.line(at)? {
             line += 1;
             at = next;
@@ -131,7 +132,7 @@ impl Text {
     pub fn start_of(&self, line: u32) -> Result<Option<usize>, Trouble> {
         let mut window = Window::default();
         let mut view = View { text: self, file: 0, window: &mut window };
-        let (mut before, mut at) = self.mark_before(|before, _| before < line);
+        let (mut before, mut at) = self.mark_of(|marks| marks.len().min((line.saturating_sub(1) / MARK_LINES) as usize));
         while before + 1 < line {
             let Some((_, next)) = view.line(at)? else { return Ok(None) };
             before += 1;
@@ -147,7 +148,7 @@ impl Text {
         window.lenient = true;
         let mut view = View { text: self, file: 0, window: &mut window };
         let offset = (offset as usize).min(self.len().saturating_sub(1));
-        let (mut before, mut at) = self.mark_before(|_, start| start <= offset);
+        let (mut before, mut at) = self.mark_of(|marks| marks.partition_point(|&start| start as usize <= offset));
         loop {
             let (range, next) = view.line(at).ok()??;
             if next > offset {
@@ -176,26 +177,26 @@ impl Text {
         }
     }
 
-    /// The last entry of the index for which `fits` holds: lines before it, and where the next one starts.
-    fn mark_before(&self, fits: impl Fn(u32, usize) -> bool) -> (u32, usize) {
+    /// The entry that `choose` takes, as a number of entries: lines before it, and where the next one starts.
+    fn mark_of(&self, choose: impl FnOnce(&[u32]) -> usize) -> (u32, usize) {
         let marks = self.marks.lock().unwrap_or_else(PoisonError::into_inner);
-        let (mut low, mut high) = (0, marks.len());
-        while low < high {
-            let middle = (low + high).div_ceil(2);
-            let place = marks.get(middle - 1).map_or(0, |&m| m as usize);
-            if fits(middle as u32 * MARK_LINES, place) { low = middle } else { high = middle - 1 }
-        }
-        match low {
-            0 => (0, 0),
-            _ => (low as u32 * MARK_LINES, marks.get(low - 1).map_or(0, |&m| m as usize)),
-        }
+        let n = choose(&marks);
+        let start = n.checked_sub(1).and_then(|i| marks.get(i)).map_or(0, |&m| m as usize);
+        (n as u32 * MARK_LINES, start)
     }
+}
+
+fn too_large() -> io::Error {
+    io::Error::new(io::ErrorKind::FileTooLarge, "it has more than 4 GiB; split it into programs that call each other")
 }
 
 /// UTF-8, or else Latin-1; without a byte order mark.
 pub fn decoded(bytes: &[u8]) -> String {
     let text = line(bytes);
-    text.strip_prefix('\u{feff}').map_or_else(|| text.clone().into_owned(), str::to_owned)
+    match text.strip_prefix('\u{feff}') {
+        Some(rest) => rest.to_owned(),
+        None => text.into_owned(),
+    }
 }
 
 /// A piece of a row: UTF-8, or else Latin-1.
