@@ -68,8 +68,8 @@ pub fn save(image: &Image, resource: &Resource, file: &Path) -> io::Result<()> {
     store(file, &map.encode(&copy, resource.program_time().0))
 }
 
-/// Replaces a file, or leaves it as it is.
-fn store(file: &Path, bytes: &[u8]) -> io::Result<()> {
+/// Writes and flushes `FILE.new`, which may then be renamed over the file; its path.
+pub fn write_beside(file: &Path, bytes: &[u8]) -> io::Result<PathBuf> {
     if let Some(folder) = file.parent() {
         fs::create_dir_all(folder)?;
     }
@@ -77,6 +77,12 @@ fn store(file: &Path, bytes: &[u8]) -> io::Result<()> {
     let mut out = File::create(&new)?;
     out.write_all(bytes)?;
     out.sync_all()?;
+    Ok(new)
+}
+
+/// Replaces a file, or leaves it as it is.
+fn store(file: &Path, bytes: &[u8]) -> io::Result<()> {
+    let new = write_beside(file, bytes)?;
     if file.exists() {
         fs::rename(file, beside(file, ".old"))?;
     }

@@ -255,14 +255,8 @@ fn is_image(file: &Path) -> bool {
 fn attachments(project: &Project) -> Vec<(String, Vec<u8>)> {
     let mut files = vec![(TOML.to_owned(), project.toml.clone().into_bytes())];
     files.extend(surroundings::of_channels(&project.root, &project.keys));
-    let entries = std::fs::read_dir(&project.root).into_iter().flatten().flatten().map(|e| e.path());
-    let mut paths: Vec<_> =
-        entries.filter(|p| p.extension().and_then(|e| e.to_str()).is_some_and(|e| ATTACHED.contains(&e))).collect();
-    paths.sort();
-    for path in paths.iter().filter(|_| !project.toml.is_empty()) {
-        if let (Some(name), Ok(bytes)) = (path.file_name(), std::fs::read(path)) {
-            files.push((name.to_string_lossy().into_owned(), bytes));
-        }
+    if !project.toml.is_empty() {
+        files.extend(surroundings::of_folder(&project.root, &ATTACHED));
     }
     files
 }

@@ -3,7 +3,7 @@
 use crate::project::Problem;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use takt_base::{Diag, SourceId, Sources};
 use takt_motion::ngc::{Host, Text};
 
@@ -68,14 +68,7 @@ impl Opened {
 }
 
 impl Host for Subroutines {
-    fn open(&self, name: &str) -> Option<(SourceId, Arc<str>)> {
-        self.open_text(name).and_then(|(id, text)| Some((id, text.whole()?.into())))
-    }
-
     fn open_text(&self, name: &str) -> Option<(SourceId, Text)> {
-        if name.is_empty() || name.contains(['/', '\\', '\0']) || name.starts_with('.') {
-            return None;
-        }
         let mut opened = self.opened();
         let paths = self.folders.iter().map(|folder| folder.join(format!("{name}.ngc")));
         let (id, text) = paths.filter_map(|path| open(&path, &mut opened.sources).ok()).next()?;

@@ -2,22 +2,22 @@
 //! Runs: background. A table is replaced as a whole: the new one is written beside it, flushed, and renamed over it.
 
 use crate::project::ProjectFile;
+use crate::retain;
 use crate::session::Session;
-use std::ffi::OsString;
-use std::fs::{self, File};
-use std::io::{self, Write};
+use std::fs;
+use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use takt_image::Image;
 use takt_motion::feeder::Environment;
 
 /// For the machine of a session; `keeps` tells whether it may store tables.
 pub fn environment(session: &Session, keeps: bool) -> Environment {
-    let (root, attached) = (session.root().to_owned(), session.image.attachments.clone());
+    let (root, image) = (session.root().to_owned(), Arc::new(session.image.clone()));
+    let attached = image.clone();
     let tables: Vec<_> =
         session.keys.motion.channel.iter().flat_map(|c| [c.parameter_file.clone(), c.tool_table.clone()]).flatten().collect();
     let files = move |name: &str| {
-        let travels = attached.iter().find(|(n, _)| n == name).map(|(_, bytes)| text(bytes));
+        let travels = attached.attachments.iter().find(|(n, _)| n == name).map(|(_, bytes)| text(bytes));
         // What `takt run` has stored is newer than what travels in the image.
         let on_disk = || fs::read(root.join(name)).map(|bytes| text(&bytes)).map_err(|e| e.to_string());
         match travels {
@@ -28,11 +28,10 @@ pub fn environment(session: &Session, keeps: bool) -> Environment {
     };
     let root = session.root().to_owned();
     let save = move |name: &str, text: &str| replace(&root.join(name), text.as_bytes()).map_err(|e| e.to_string());
-    let symbols: Arc<Image> = Arc::new(session.image.clone());
     Environment {
         files: Arc::new(Box::new(files)),
         save: keeps.then(|| Arc::new(Box::new(save) as takt_motion::feeder::environment::Save)),
-        symbols: Some(symbols),
+        symbols: Some(image),
     }
 }
 
@@ -41,16 +40,16 @@ fn text(bytes: &[u8]) -> String {
 }
 
 fn replace(file: &Path, bytes: &[u8]) -> io::Result<()> {
-    if let Some(folder) = file.parent() {
-        fs::create_dir_all(folder)?;
-    }
-    let mut new = OsString::from(file);
-    new.push(".new");
-    let new = PathBuf::from(new);
-    let mut out = File::create(&new)?;
-    out.write_all(bytes)?;
-    out.sync_all()?;
-    fs::rename(&new, file)
+    fs::rename(retain::write_beside(file, bytes)?, file)
+}
+
+/// Files of a folder whose extension is one of `endings`, in the order of their names.
+pub fn of_folder(folder: &Path, endings: &[&str]) -> Vec<(String, Vec<u8>)> {
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten().map(|e| e.path());
+    let wanted = |p: &PathBuf| p.extension().and_then(|e| e.to_str()).is_some_and(|e| endings.contains(&e));
+    let mut paths: Vec<PathBuf> = entries.filter(wanted).collect();
+    paths.sort();
+    paths.iter().filter_map(|p| Some((p.file_name()?.to_string_lossy().into_owned(), fs::read(p).ok()?))).collect()
 }
 
 /// Files of the channels that travel in an image: subroutines of `subs` folders, tool tables.
@@ -59,14 +58,8 @@ pub fn of_channels(root: &Path, keys: &ProjectFile) -> Vec<(String, Vec<u8>)> {
     for channel in &keys.motion.channel {
         for folder in &channel.subs {
             let folder = folder.trim_end_matches('/');
-            let entries = fs::read_dir(root.join(folder)).into_iter().flatten().flatten().map(|e| e.path());
-            let mut subs: Vec<_> = entries.filter(|p| p.extension().is_some_and(|e| e == "ngc")).collect();
-            subs.sort();
-            for path in subs {
-                if let (Some(name), Ok(bytes)) = (path.file_name(), fs::read(&path)) {
-                    files.push((format!("{folder}/{}", name.to_string_lossy()), bytes));
-                }
-            }
+            let subs = of_folder(&root.join(folder), &["ngc"]);
+            files.extend(subs.into_iter().map(|(name, bytes)| (format!("{folder}/{name}"), bytes)));
         }
         if let Some((name, bytes)) = channel.tool_table.as_ref().and_then(|n| Some((n, fs::read(root.join(n)).ok()?))) {
             files.push((name.clone(), bytes));

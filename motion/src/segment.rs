@@ -48,6 +48,8 @@ pub struct Segment {
 /// Switches that a part program turns on and off.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Switch {
+    /// M50: the feed override counts.
+    Feed,
     /// M52.
     Adaptive,
     /// M53.
@@ -121,9 +123,7 @@ pub enum Action {
     Dwell(f64),
     /// Show codes; with `wait` at rest.
     Aux(AuxCodes),
-    /// Obey the feed override (M48) or not (M49).
-    FeedOverride(bool),
-    /// Other switches.
+    /// A switch is turned on or off.
     Switch(Switch, bool),
     /// Speed and direction of the spindle.
     Spindle(SpindleCommand),
@@ -163,7 +163,6 @@ impl Action {
             | Action::Fault(_) => true,
             Action::Move(_)
             | Action::Pulse(_)
-            | Action::FeedOverride(_)
             | Action::Switch(..)
             | Action::Spindle(_)
             | Action::Output(_)

@@ -3,7 +3,7 @@
 
 use super::{Channel, CncEvent, CncState, Wait};
 use crate::execution::Demand;
-use crate::segment::{Action, AuxCodes, Planned};
+use crate::segment::{Action, AuxCodes, Planned, Switch};
 
 impl Channel {
     pub(super) fn demand_now(&self) -> Demand {
@@ -33,7 +33,7 @@ impl Channel {
                 self.spindle.obey(*command);
                 true
             }
-            Action::Switch(_, on) => {
+            Action::Switch(Switch::Spindle, on) => {
                 self.spindle.use_override(*on);
                 true
             }
@@ -67,7 +67,7 @@ impl Channel {
                 self.fail(*note);
                 false
             }
-            Action::Move(_) | Action::Special(..) | Action::Dwell(_) | Action::FeedOverride(_) => true,
+            Action::Move(_) | Action::Special(..) | Action::Dwell(_) | Action::Switch(..) => true,
         }
     }
 }

@@ -87,7 +87,6 @@ impl Channel {
         }
         self.joined = true;
         self.started = self.modes;
-        self.locked = self.lock();
         (self.step, self.kept_back) = (false, false);
         self.hold = false;
         self.error = None;

@@ -103,8 +103,6 @@ pub struct Channel {
     step: bool,
     /// The next block is kept back.
     kept_back: bool,
-    /// Axes that do not follow, a bit each.
-    locked: u16,
     /// One block or a subroutine runs, not the program.
     typed: bool,
     check: typed::Check,
@@ -148,7 +146,6 @@ impl Channel {
             started: Modes::default(),
             step: false,
             kept_back: false,
-            locked: 0,
             typed: false,
             check: typed::Check::Idle,
             returned: 0.0,

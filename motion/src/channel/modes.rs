@@ -44,11 +44,6 @@ pub struct Panel {
 }
 
 impl Channel {
-    /// What is switched on.
-    pub fn modes(&self) -> &Modes {
-        &self.modes
-    }
-
     /// Single block, optional stop, dry run, machine lock, lock of codes, block skip, as they count now.
     pub fn modes_in_force(&self) -> [bool; 6] {
         let m = &self.modes;
@@ -56,23 +51,18 @@ impl Channel {
         [m.single_block, optional, self.started.dry_run, self.is_locked() && self.joined, m.aux_lock, self.started.block_skip]
     }
 
-    /// Switches modes.
-    pub fn set_modes(&mut self, modes: Modes) {
-        self.modes = modes;
-    }
-
     /// An axis of the running program is locked.
     pub fn is_locked(&self) -> bool {
-        self.locked != 0
+        self.lock() != 0
     }
 
-    /// Axes that a program locks that starts now.
-    pub(super) fn lock(&self) -> u16 {
-        if self.modes.machine_lock { u16::MAX } else { self.modes.axis_lock }
+    /// Axes that the program started with locked.
+    fn lock(&self) -> u16 {
+        if self.started.machine_lock { u16::MAX } else { self.started.axis_lock }
     }
 
     pub(super) fn has_lock(&self, coordinate: usize) -> bool {
-        self.locked >> coordinate & 1 != 0
+        self.lock() >> coordinate & 1 != 0
     }
 
     /// How the next program runs.

@@ -1,9 +1,8 @@
 //! CNC_CallSub: one subroutine of g-code from the PLC program.
 //! Runs: cyclic.
 
-use crate::axis::CommandId;
 use crate::feeder::ARGS;
-use crate::natives::rules::{self, Action, Progress};
+use crate::natives::rules::{self, Action};
 use crate::natives::{Core, Frame};
 use crate::{block, execute_pins};
 use takt_base::Code;
@@ -30,7 +29,8 @@ block! {
 }
 
 fn call(core: &mut Core, f: &mut Frame) {
-    let channel = rules::execute_channel(core, f, &execute_pins!(P motion), P::Cnc, &Action { start, poll: progress });
+    let channel =
+        rules::execute_channel(core, f, &execute_pins!(P motion), P::Cnc, &Action { start, poll: rules::run_of_channel });
     if f.bool(P::Done)
         && let Some(channel) = channel
     {
@@ -47,9 +47,4 @@ fn start(core: &mut Core, f: &mut Frame, channel: usize) -> Result<u32, Code> {
         *arg = f.lreal_at(P::Args, i);
     }
     channels[channel].call_sub(f.string(P::Name, 80), args, count, axes).map(|id| id.0)
-}
-
-fn progress(core: &mut Core, channel: usize, command: u32) -> Progress {
-    let channel = &core.channels[channel];
-    Progress { outcome: channel.outcome(CommandId(command)), active: channel.is_working() }
 }

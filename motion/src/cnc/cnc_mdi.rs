@@ -1,8 +1,7 @@
 //! CNC_MDI: one block of g-code from the PLC program.
 //! Runs: cyclic.
 
-use crate::axis::CommandId;
-use crate::natives::rules::{self, Action, Progress};
+use crate::natives::rules::{self, Action};
 use crate::natives::{Core, Frame};
 use crate::{block, execute_pins};
 use takt_base::Code;
@@ -25,15 +24,10 @@ block! {
 }
 
 fn call(core: &mut Core, f: &mut Frame) {
-    rules::execute_channel(core, f, &execute_pins!(P motion), P::Cnc, &Action { start, poll: progress });
+    rules::execute_channel(core, f, &execute_pins!(P motion), P::Cnc, &Action { start, poll: rules::run_of_channel });
 }
 
 fn start(core: &mut Core, f: &mut Frame, channel: usize) -> Result<u32, Code> {
     let Core { axes, channels } = core;
     channels[channel].typed_block(f.string(P::Block, 255), axes).map(|id| id.0)
-}
-
-fn progress(core: &mut Core, channel: usize, command: u32) -> Progress {
-    let channel = &core.channels[channel];
-    Progress { outcome: channel.outcome(CommandId(command)), active: channel.is_working() }
 }

@@ -1,8 +1,7 @@
 //! CNC_Run: runs the loaded part program (N3, N9).
 //! Runs: cyclic.
 
-use crate::axis::CommandId;
-use crate::natives::rules::{self, Action, Progress};
+use crate::natives::rules::{self, Action};
 use crate::natives::{Core, Frame};
 use crate::{block, execute_pins};
 use takt_base::Code;
@@ -33,7 +32,8 @@ const START_TOP: i16 = 0;
 const START_RAW: i16 = 2;
 
 fn call(core: &mut Core, f: &mut Frame) {
-    let channel = rules::execute_channel(core, f, &execute_pins!(P motion), P::Cnc, &Action { start, poll: progress });
+    let channel =
+        rules::execute_channel(core, f, &execute_pins!(P motion), P::Cnc, &Action { start, poll: rules::run_of_channel });
     if f.bool(P::Busy)
         && let Some(channel) = channel
     {
@@ -46,9 +46,4 @@ fn start(core: &mut Core, f: &mut Frame, channel: usize) -> Result<u32, Code> {
     let mode = f.i16(P::StartMode);
     let line = if mode == START_TOP { 0 } else { f.u32(P::StartLine) };
     channels[channel].run(f.u32(P::ProgramID), line, mode == START_RAW, axes).map(|id| id.0)
-}
-
-fn progress(core: &mut Core, channel: usize, command: u32) -> Progress {
-    let channel = &core.channels[channel];
-    Progress { outcome: channel.outcome(CommandId(command)), active: channel.is_working() }
 }

@@ -76,13 +76,7 @@ impl PathExecutor {
         match special {
             Special::Probe(probe) => return self.start_probe(segment, probe, demand),
             Special::Tap(pitch) => self.follow = Some(Follow::new(Stage::Down, pitch, demand)),
-            Special::Thread { pitch, starts } => {
-                let running = self.follow.take().filter(|_| !starts);
-                self.follow = Some(match running {
-                    Some(f) => Follow { pitch, ..f },
-                    None => Follow::new(Stage::Thread, pitch, demand),
-                });
-            }
+            Special::Thread { pitch, .. } => self.follow = Some(Follow::new(Stage::Thread, pitch, demand)),
         }
         self.start(segment);
         self.pace = Pace::Free(0.0);

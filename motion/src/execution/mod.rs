@@ -266,6 +266,11 @@ impl PathExecutor {
         reached
     }
 
+    /// The path has to stand: a hold, or the feed hold where M53 lets it count.
+    fn holds(&self, demand: &Demand) -> bool {
+        demand.hold || (demand.feed_hold && self.feed_hold)
+    }
+
     fn walk(&mut self, dt: f64, demand: &Demand, starved: bool) -> Reached {
         let mut left = dt;
         for _ in 0..4 * QUEUE {
@@ -273,7 +278,7 @@ impl PathExecutor {
                 return Reached::Time;
             }
             if self.dwell_s > 0.0 {
-                left = self.dwell(left, demand.hold || (demand.feed_hold && self.feed_hold));
+                left = self.dwell(left, self.holds(demand));
             } else if self.follow.is_some() {
                 left = self.follow_step(left, demand);
             } else if self.current.is_some() {
@@ -323,7 +328,7 @@ impl PathExecutor {
             1.0
         };
         let share = if self.adaptive { share * demand.adaptive } else { share };
-        let hold = demand.hold || (demand.feed_hold && self.feed_hold);
+        let hold = self.holds(demand);
         let cap = match share.clamp(0.0, 1.0) {
             _ if hold || starved => 0.0,
             // Without an override nothing is capped, not even by rounding.
@@ -348,7 +353,7 @@ impl PathExecutor {
             return Next::Nothing;
         }
         self.primed = true;
-        let hold = demand.hold || (demand.feed_hold && self.feed_hold);
+        let hold = self.holds(demand);
         if self.queue.front().is_none_or(|step| hold && self.speed_in(step) == 0.0) {
             return Next::Nothing;
         }
@@ -367,7 +372,7 @@ impl PathExecutor {
             }
             Action::Special(segment, special) => self.start_special(segment, special, demand),
             Action::Dwell(seconds) => self.dwell_s = seconds,
-            Action::FeedOverride(on) => self.feed_override = on,
+            Action::Switch(Switch::Feed, on) => self.feed_override = on,
             Action::Switch(Switch::Adaptive, on) => self.adaptive = on,
             Action::Switch(Switch::FeedHold, on) => self.feed_hold = on,
             _ => {

@@ -52,9 +52,6 @@ impl ChannelHost {
 
 impl Host for ChannelHost {
     fn open(&self, name: &str) -> Option<(SourceId, Arc<str>)> {
-        if name.is_empty() || name.contains(['/', '\\', '\0']) || name.starts_with('.') {
-            return None;
-        }
         let paths = self.folders.iter().map(|f| if f.is_empty() { format!("{name}.ngc") } else { format!("{f}/{name}.ngc") });
         let (path, text) = paths.filter_map(|p| Some((p.clone(), (self.environment.files)(&p).ok()?))).next()?;
         let mut sources = self.sources.lock().unwrap_or_else(PoisonError::into_inner);

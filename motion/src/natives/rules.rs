@@ -2,7 +2,7 @@
 //! Runs: cyclic. From: PLCopen part 1 §2.2 (R1..R12) and §2.3 (E1..E4).
 
 use super::{Core, Frame};
-use crate::axis::Outcome;
+use crate::axis::{CommandId, Outcome};
 use takt_base::Code;
 
 /// Pins of a block with Execute. A pin that a block does not have is [`ABSENT`].
@@ -129,6 +129,12 @@ pub fn execute_channel(
 /// Poll of a block whose start does everything.
 pub fn at_once(_: &mut Core, _: usize, _: u32) -> Progress {
     Progress::of(Outcome::Done)
+}
+
+/// Poll of a block that runs a program, a block or a subroutine in a channel.
+pub fn run_of_channel(core: &mut Core, channel: usize, command: u32) -> Progress {
+    let channel = &core.channels[channel];
+    Progress { outcome: channel.outcome(CommandId(command)), active: channel.is_working() }
 }
 
 /// `number` is what the reference holds, `target` what it leads to.

@@ -8,7 +8,9 @@ use takt_base::SourceId;
 /// The surroundings. Called in the background.
 pub trait Host: Send + Sync {
     /// The file of subroutine `name`, which has no path and no extension.
-    fn open(&self, name: &str) -> Option<(SourceId, Arc<str>)>;
+    fn open(&self, _name: &str) -> Option<(SourceId, Arc<str>)> {
+        None
+    }
     /// The same for a file of any size; what the interpreter calls.
     fn open_text(&self, name: &str) -> Option<(SourceId, Text)> {
         self.open(name).map(|(source, text)| (source, text.into()))
@@ -31,6 +33,11 @@ pub trait Host: Send + Sync {
 #[derive(Clone, Default)]
 pub struct HostRef(Option<Arc<dyn Host>>);
 
+/// A name that leads out of no folder.
+fn is_plain(name: &str) -> bool {
+    !(name.is_empty() || name.contains(['/', '\\', '\0']) || name.starts_with('.'))
+}
+
 impl HostRef {
     /// With a host.
     pub fn new(host: Arc<dyn Host>) -> Self {
@@ -38,7 +45,7 @@ impl HostRef {
     }
     /// See [`Host::open_text`].
     pub fn open_text(&self, name: &str) -> Option<(SourceId, Text)> {
-        self.0.as_ref()?.open_text(name)
+        self.0.as_ref().filter(|_| is_plain(name))?.open_text(name)
     }
     /// See [`Host::plc`].
     pub fn plc(&self, path: &str) -> Option<Result<Variable, PlcError>> {

@@ -254,8 +254,6 @@ pub struct Modal {
     pub diameter: bool,
     /// Offsets in force.
     pub offsets: Offsets,
-    /// G92 offsets are kept but do not count (G92.2).
-    pub local_suspended: bool,
     /// G43 and its kin are in force.
     pub length_on: bool,
     /// G41, G42.
@@ -306,7 +304,6 @@ impl Modal {
             retract: Retract::R,
             diameter: false,
             offsets: Offsets::default(),
-            local_suspended: false,
             length_on: false,
             side: None,
             side_dynamic: false,

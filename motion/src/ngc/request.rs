@@ -93,88 +93,58 @@ impl Request {
         self.n = row.n;
         self.motion = None;
         (self.has_code, self.has_letter) = (0, 0);
-        let Some(known) = self.words(row, source, arena, state, stack, out) else { return };
-        if !row.settings.is_empty() && self.settings(row, source, arena, state, stack, out).is_none() {
-            return;
-        }
+        let done = self.words(row, arena, state, stack, out);
+        let known = match done.and_then(|known| self.settings(row, arena, state, stack).map(|()| known)) {
+            Ok(known) => known,
+            Err(fault) => return out.push(fault.diag(source)),
+        };
         self.motion = self.find_motion(state).filter(|_| known);
         let before = out.len();
         self.check_values(state, out);
         if known && out.len() == before && !self.is_plain_move() {
-            self.check_used(row, source, arena, out);
+            self.check_used(row, arena, out);
         }
     }
 
-    /// All words; `None` if one has no value, else whether all codes are known.
-    fn words(
-        &mut self,
-        row: &Row,
-        source: SourceId,
-        arena: &Arena,
-        state: &State,
-        stack: &mut Stack,
-        out: &mut Vec<Diag>,
-    ) -> Option<bool> {
+    /// All words, each computed; whether all codes are known.
+    fn words(&mut self, row: &Row, arena: &Arena, state: &State, stack: &mut Stack, out: &mut Vec<Diag>) -> Result<bool, Fault> {
         let mut known = true;
         for word in &arena.words[row.words.range()] {
-            let span = Span { source, start: word.place.0, end: word.place.1 };
-            let value = match run::value(word.value, arena, state, stack) {
-                Ok(value) if value.abs() <= super::number::MAX => value,
-                Ok(_) => {
-                    out.push(Diag::new(Code::BadValue, span, "above 1000000000000").help("check the expression"));
-                    return None;
-                }
-                Err(fault) => {
-                    out.push(fault.diag(source));
-                    return None;
-                }
-            };
+            let (start, end) = word.place;
+            let span = Span { start, end, ..self.span };
+            let value = run::value(word.value, arena, state, stack)?;
+            if value.is_nan() || value.abs() > super::number::MAX {
+                return Err(Fault::at(Code::BadValue, start, end, "above 1000000000000", "check the expression"));
+            }
             match word.letter {
                 'G' | 'M' => known &= self.add_code(word.letter, value, word.action, span, state, out),
                 letter => self.add_letter(Word { letter, value, span }, out),
             }
         }
-        Some(known)
+        Ok(known)
     }
 
     /// Computes what the settings set, then sets it: all values of a row count before (LinuxCNC "Parameters").
-    fn settings(
-        &mut self,
-        row: &Row,
-        source: SourceId,
-        arena: &Arena,
-        state: &mut State,
-        stack: &mut Stack,
-        out: &mut Vec<Diag>,
-    ) -> Option<()> {
+    fn settings(&mut self, row: &Row, arena: &Arena, state: &mut State, stack: &mut Stack) -> Result<(), Fault> {
         self.settings.clear();
         for setting in &arena.settings[row.settings.range()] {
             let place = match setting.target {
-                Target::Named(name) => writable_name(name, setting.place),
-                Target::Numbered(index) => run::value(index, arena, state, stack).and_then(|i| writable(i, setting.place)),
+                Target::Named(name) => writable_name(name, setting.place)?,
+                Target::Numbered(index) => writable(run::value(index, arena, state, stack)?, setting.place)?,
             };
-            let value = place.and_then(|place| Ok((place, run::value(setting.value, arena, state, stack)?)));
-            match value {
-                Ok(pair) => self.settings.push(pair),
-                Err(fault) => {
-                    out.push(fault.diag(source));
-                    return None;
-                }
-            }
+            self.settings.push((place, run::value(setting.value, arena, state, stack)?));
         }
         for &(place, value) in &self.settings {
             match place {
                 Place::Numbered(index) => state.params.set(index, value),
                 Place::Named(name) if name.kind == Kind::Outside => {
-                    if let Err(e) = state.set_outside(arena.names.text(name), value) {
-                        out.push(Diag::new(e.code, self.span, e.label).help(e.help));
-                        return None;
-                    }
+                    let set = state.set_outside(arena.names.text(name), value);
+                    set.map_err(|e| Fault::at(e.code, self.span.start, self.span.end, e.label, e.help))?;
                 }
                 Place::Named(name) => state.params.set_named(name, value),
             }
         }
-        Some(())
+        Ok(())
     }
 
     /// The code of a group, if the block has one.
@@ -341,13 +311,10 @@ impl Request {
         if self.has_letter & CHECKED == 0 && self.only_moves() {
             return;
         }
-        for letter in ['F', 'S'] {
+        for letter in ['F', 'S', 'L'] {
             if let Some(word) = self.word(letter).filter(|w| w.value < 0.0) {
                 out.push(bad_value(word, "less than zero", "write zero or more"));
             }
-        }
-        if let Some(word) = self.word('L').filter(|w| w.value < 0.0) {
-            out.push(bad_value(word, "less than zero", "write zero or more"));
         }
         if let Some(word) = self.word('P').filter(|w| self.motion.is_some_and(Motion::is_arc) && w.whole().is_none_or(|p| p == 0))
         {
@@ -372,7 +339,7 @@ impl Request {
         }
     }
 
-    fn check_used(&self, row: &Row, source: SourceId, arena: &Arena, out: &mut Vec<Diag>) {
+    fn check_used(&self, row: &Row, arena: &Arena, out: &mut Vec<Diag>) {
         let own = (0..GROUPS).filter(|i| self.has_code & (1 << i) != 0).map(|i| self.codes[i].0);
         let modal = (!self.has_group(Group::Motion)).then_some(Action::Motion(self.motion));
         for word in &arena.words[row.words.range()] {
@@ -383,7 +350,7 @@ impl Request {
                 continue;
             }
             let readers = own.clone().chain(modal).filter(|a| a.operands().contains(word.letter)).count();
-            let span = Span { source, start: word.place.0, end: word.place.1 };
+            let span = Span { start: word.place.0, end: word.place.1, ..self.span };
             match readers {
                 0 => out.push(unused(word.letter, span)),
                 1 => {}

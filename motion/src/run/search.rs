@@ -5,7 +5,7 @@
 use super::{Emit, RunError, RunReader};
 use crate::canon::{Canon, Step};
 use crate::geometry::{Path, Point};
-use crate::segment::{Action, Mark};
+use crate::segment::{Action, Mark, Switch};
 
 /// What the search has passed.
 #[derive(Clone, Debug, Default)]
@@ -67,7 +67,7 @@ impl RunReader {
             }
         }
         if let Some(on) = passed.feed_override {
-            self.action(mark, Action::FeedOverride(on), emit)?;
+            self.action(mark, Action::Switch(Switch::Feed, on), emit)?;
         }
         self.flush_aux(emit);
         let to = self.position;

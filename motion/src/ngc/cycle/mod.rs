@@ -114,13 +114,10 @@ fn restore_path(run: &mut Run, mode: MotionMode) {
 
 fn check_modes(run: &mut Run, motion: Motion) -> Done {
     let at = run.request.motion_span();
-    let refuse = |label: String, help| Err(Box::new(not_now(at, label, help)));
     if run.state.modal.feed_mode == FeedMode::InverseTime {
-        return refuse(format!("{} with G93", motion.text()), "write G94 before it");
+        return Err(Box::new(not_now(at, format!("{} with G93", motion.text()), "write G94 before it")));
     }
-    if run.state.modal.side.is_some() {
-        return refuse(format!("{} while G41 or G42 is in force", motion.text()), "write G40 first");
-    }
+    run.uncompensated(at, motion.text())?;
     motion::check_feed(run, motion)
 }
 

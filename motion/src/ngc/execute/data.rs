@@ -1,6 +1,6 @@
 //! G10: L1, L10, L11 change the tool table, L2 and L20 a work offset system.
 
-use super::offsets::{no_change, work_that_makes};
+use super::offsets::work_that_makes;
 use super::{Done, Run};
 use crate::canon::{Canon, Position, ToolEntry};
 use crate::ngc::modal::minus;
@@ -24,9 +24,7 @@ impl Run<'_, '_> {
 
     fn set_system(&mut self, relative: bool) -> Done {
         let at = self.request.code_span(Group::NonModal);
-        if self.state.modal.side.is_some() {
-            return Err(no_change(at));
-        }
+        self.uncompensated(at, "G10")?;
         let Some(word) = self.request.word('P') else {
             return Err(Box::new(missing(at, "P").help("write the number of the system: P1 is G54, P0 the one in force")));
         };

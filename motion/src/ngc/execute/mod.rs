@@ -19,9 +19,9 @@ use super::motion;
 use super::request::{Request, not_now};
 use super::state::State;
 use super::word::{Action, Control, Group};
-use crate::canon::{Canon, ProgramEnd, Step};
+use crate::canon::{Canon, Step};
 use std::collections::VecDeque;
-use takt_base::{Diag, Severity};
+use takt_base::{Diag, Severity, Span};
 
 /// Where commands go.
 #[derive(Debug)]
@@ -106,6 +106,14 @@ impl Run<'_, '_> {
             return self.out.emit(command);
         }
         self.wait(command);
+    }
+
+    /// An error while G41 or G42 is in force.
+    pub fn uncompensated(&self, at: Span, what: &str) -> Done {
+        match self.state.modal.side {
+            None => Ok(()),
+            Some(_) => Err(Box::new(not_now(at, format!("{what} while G41 or G42 is in force"), "write G40 first"))),
+        }
     }
 
     /// What LinuxCNC says in its listing of a mode that no canonical command shows.
@@ -224,9 +232,8 @@ impl Run<'_, '_> {
     }
 
     fn control(&mut self, control: Control) -> Done {
-        if self.state.modal.side.is_some() && self.state.options.drop_in {
-            let at = self.request.code_span(Group::Control);
-            return Err(Box::new(not_now(at, "another path control while G41 or G42 is in force", "write G40 first")));
+        if self.state.options.drop_in {
+            self.uncompensated(self.request.code_span(Group::Control), "another path control")?;
         }
         let mode = control.mode(self.request.tolerance(control));
         self.modal().control = mode;
@@ -263,9 +270,6 @@ impl Run<'_, '_> {
         }
     }
 }
-
-/// The end that a program without M2 has.
-pub const AT_END: ProgramEnd = ProgramEnd::EndOfFile;
 
 /// Brings back modes that a subroutine saved (M73).
 pub fn restore(state: &mut State, request: &Request, out: &mut Out, saved: &Modal) {

@@ -58,10 +58,7 @@ impl Run<'_, '_> {
 
     pub(super) fn work_offset_code(&mut self) -> Done {
         let Some(Action::WorkOffset(index)) = self.request.code(Group::WorkOffset) else { return Ok(()) };
-        if self.state.modal.side.is_some() {
-            let at = self.request.code_span(Group::WorkOffset);
-            return Err(Box::new(not_now(at, "another origin while G41 or G42 is in force", "write G40 first")));
-        }
+        self.uncompensated(self.request.code_span(Group::WorkOffset), "another origin")?;
         self.work_offset(index);
         Ok(())
     }
@@ -138,9 +135,7 @@ impl Run<'_, '_> {
 
     fn local_offset(&mut self, offset: Offset) -> Done {
         let at = self.request.code_span(Group::NonModal);
-        if self.state.modal.side.is_some() {
-            return Err(Box::new(not_now(at, "another origin while G41 or G42 is in force", "write G40 first")));
-        }
+        self.uncompensated(at, "another origin")?;
         let bare = !self.request.any("XYZABCUVW");
         if offset == Offset::Set && bare && self.state.options.language.lenient {
             let help = "all axes become 0 here, as printers take it; write G92 X0 Y0 Z0";
@@ -192,9 +187,7 @@ impl Run<'_, '_> {
     /// G28, G30: over the place that the axis words name to the reference position; with axis words only these axes go on.
     fn go_to_reference(&mut self, index: usize) -> Done {
         let at = self.request.code_span(Group::NonModal);
-        if self.state.modal.side.is_some() {
-            return Err(Box::new(not_now(at, "G28 or G30 while G41 or G42 is in force", "write G40 first")));
-        }
+        self.uncompensated(at, "G28 or G30")?;
         let middle = motion::target(self.request, self.state)?;
         self.go(middle, at)?;
         let unit = self.state.unit();
@@ -227,9 +220,4 @@ pub(super) fn work_that_makes(state: &State, rotation: f64, want: Position) -> P
     let machine = state.modal.machine(state.modal.position);
     let Offsets { local, tool, .. } = state.modal.offsets;
     minus(minus(machine, tool), rotated(plus(want, local), rotation))
-}
-
-/// An error where an offset may not change.
-pub(super) fn no_change(at: takt_base::Span) -> Box<Diag> {
-    Box::new(not_now(at, "G10 while G41 or G42 is in force", "write G40 first"))
 }

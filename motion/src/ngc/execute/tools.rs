@@ -75,10 +75,7 @@ impl Run<'_, '_> {
 
     pub(super) fn tool_length(&mut self) -> Done {
         let Some(Action::Length(length)) = self.request.code(Group::Length) else { return Ok(()) };
-        if self.state.modal.side.is_some() {
-            let at = self.request.code_span(Group::Length);
-            return Err(Box::new(not_now(at, "another tool length while G41 or G42 is in force", "write G40 first")));
-        }
+        self.uncompensated(self.request.code_span(Group::Length), "another tool length")?;
         let present = self.state.modal.offsets.tool;
         let offset = match length {
             Length::Off => Position::default(),

@@ -98,7 +98,7 @@ impl Machine {
     }
 
     /// A coordinate that the program writes, in mm.
-    fn stored(&self, axis: u32, value: f64, io: &Io) -> f64 {
+    pub(super) fn stored(&self, axis: u32, value: f64, io: &Io) -> f64 {
         match axis {
             0 if self.modes.diameter() => value / 2.0 * io.state.unit(),
             0..=2 => value * io.state.unit(),

@@ -59,14 +59,11 @@ impl Machine {
 
     /// `old` (mm) with the words of the block: places, or increments in G91 and by U, V, W.
     fn changed(&self, b: &Block, old: Position, io: &Io) -> Position {
-        let (mut all, unit): ([f64; 6], f64) = (old.into(), io.state.unit());
+        let mut all: [f64; 6] = old.into();
         for (i, letter) in AXES.into_iter().enumerate() {
             let increment = self.increment(b, i);
             let word = b.take(letter as u8);
-            let value = |w: Word| {
-                let value = self.length_of(w) / if i == 0 && self.modes.diameter() { 2.0 } else { 1.0 };
-                if i < 3 { value * unit } else { value }
-            };
+            let value = |w: Word| self.stored(i as u32, self.length_of(w), io);
             match (word, increment) {
                 (Some(w), _) if self.modes.incremental => all[i] += value(w),
                 (Some(w), _) => all[i] = value(w),
@@ -81,7 +78,7 @@ impl Machine {
     fn milling_offset(&mut self, b: &Block, l: u32, at: Span, io: &mut Io) -> Done {
         let (_, number) = Self::number(b, at)?;
         let Some(r) = b.take(b'R') else { return Err(Box::new(missing(at, "R").help("write the value of the offset"))) };
-        let (mut entry, mut wear) = (self.register(number, at, io)?, self.modes.wear_of(number));
+        let (mut entry, mut wear) = (io.run().tool(number, at)?, self.modes.wear_of(number));
         let mm = self.length_of(r) * io.state.unit();
         let place = match l {
             10 => &mut entry.offset[2],
@@ -100,7 +97,7 @@ impl Machine {
     fn turning_offset(&mut self, b: &Block, at: Span, io: &mut Io) -> Done {
         let (_, p) = Self::number(b, at)?;
         let (number, geometry) = (p % 10_000, p >= 10_000);
-        let (mut entry, mut wear) = (self.register(number, at, io)?, self.modes.wear_of(number));
+        let (mut entry, mut wear) = (io.run().tool(number, at)?, self.modes.wear_of(number));
         let old = if geometry { (entry.offset[0], entry.offset[2]) } else { (wear.x, wear.z) };
         let new = self.changed(b, Position { x: old.0, z: old.1, ..Position::default() }, io);
         let radius = if geometry { entry.diameter / 2.0 } else { wear.radius };

@@ -16,9 +16,8 @@ impl Machine {
         let old = self.modes.drill.filter(|d| d.axis == axis);
         let here: [f64; 6] = self.modes.at.into();
         let initial = here[axis];
-        let half = if axis == 0 && self.modes.diameter() { 0.5 } else { 1.0 };
-        let depth = b.take(AXES[axis] as u8).map(|w| self.length_of(w) * half);
-        let step = self.increment(b, axis).map(|w| self.length_of(w) * half);
+        let depth = b.take(AXES[axis] as u8).map(|w| self.along(axis, w));
+        let step = self.increment(b, axis).map(|w| self.along(axis, w));
         // R is an increment, and of X a radius.
         let r = initial + b.take(b'R').map_or(old.map_or(0.0, |d| d.r - d.initial), |w| self.length_of(w));
         let bottom = match (depth, step, old) {

@@ -59,7 +59,6 @@ pub struct Frame {
     pub arguments: Option<Box<Locals>>,
     /// Called by G66.
     pub modal: bool,
-    program: u32,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -96,8 +95,6 @@ pub struct Flow {
     loops: Vec<Loop>,
     here: Spot,
     jumped: bool,
-    /// Number of the program at hand.
-    pub program: u32,
     /// Takes files as users stream them.
     pub lenient: bool,
     /// What was passed over.
@@ -130,7 +127,6 @@ impl Flow {
             loops: Vec::new(),
             here: Spot::default(),
             jumped: false,
-            program: 0,
             lenient: false,
             notes: Vec::new(),
             window,
@@ -418,9 +414,9 @@ impl Flow {
                 format!("write it behind this one as O{0:04}, or put it into the file O{0:04}.ngc of the folder", call.number);
             Fault::at(Code::MissingSub, place.0, place.1, format!("no program O{:04}", call.number), help)
         })?;
-        let (back, loops, program) = (self.spot(), self.loops.len(), self.program);
+        let (back, loops) = (self.spot(), self.loops.len());
         let Call { times: left, arguments, modal, .. } = call;
-        self.frames.push(Frame { back, start, left, loops, arguments, modal, program });
+        self.frames.push(Frame { back, start, left, loops, arguments, modal });
         self.go(start);
         Ok(())
     }
@@ -464,7 +460,6 @@ impl Flow {
         let Some(frame) = self.frames.pop() else { return Ok(None) };
         self.loops.truncate(frame.loops);
         self.go(frame.back);
-        self.program = frame.program;
         if let Some(n) = n {
             self.here = frame.back;
             self.goto(n, place)?;

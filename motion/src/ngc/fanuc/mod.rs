@@ -36,7 +36,6 @@ mod virtual_axis;
 pub use settings::{Dialect, Language, MacroCall, Settings, UserCode};
 
 use super::code::CommentKind;
-use super::execute;
 use super::options::Options;
 use super::state::State;
 use crate::canon::{Canon, Plane, ProgramEnd};
@@ -59,8 +58,6 @@ pub struct Machine {
     stack: expr::Stack,
     /// The row at hand may be the first of its program.
     fresh: bool,
-    /// Something was read.
-    opened: bool,
     /// A corner that waits for the move behind it.
     corner: Option<corner::Corner>,
     /// Moves of a contour, where one is read for a cycle.
@@ -115,7 +112,6 @@ impl Machine {
             block: Block::default(),
             stack: Vec::new(),
             fresh: true,
-            opened: false,
             corner: None,
             recording: None,
             skipped: false,
@@ -143,7 +139,7 @@ impl Machine {
     /// # Errors
     /// The file can't be read.
     pub fn seek(&mut self, line: u32) -> Result<bool, crate::ngc::fault::Fault> {
-        (self.opened, self.fresh) = (true, false);
+        self.fresh = false;
         (self.corner, self.recording, self.nurbs, self.modal_macro) = (None, None, None, None);
         self.in_profile = false;
         self.flow.seek(line)
@@ -165,7 +161,7 @@ impl Machine {
             Next::Wrong(fault, line) => {
                 io.at(self.flow.source(), (0, 0), line, None);
                 io.wrong(fault.diag(self.flow.source()));
-                (self.opened, self.fresh) = (true, false);
+                self.fresh = false;
                 Went::On
             }
             Next::End => self.end_of_text(io),
@@ -210,7 +206,6 @@ impl Machine {
     }
 
     fn row(&mut self, row: &Row, io: &mut Io) -> Went {
-        self.opened = true;
         if std::mem::take(&mut self.skipped) {
             self.sync(io);
         }
@@ -224,7 +219,6 @@ impl Machine {
             if !self.fresh {
                 return self.end_of_text(io);
             }
-            self.flow.program = program;
             self.modes.program = program;
         }
         self.fresh &= row.is_empty();
@@ -336,10 +330,5 @@ impl Machine {
         }
         io.obey(&[super::word::Action::Stop(super::word::Stop::End(end))], &[], at);
         Went::Ended
-    }
-
-    /// The end of a program without M2: a move that waits goes out.
-    pub fn release(io: &mut Io) {
-        execute::release(io.state, &mut io.out);
     }
 }

@@ -59,6 +59,11 @@ impl Machine {
         word.value / if linear && self.modes.codes[6] == 200 { 10_000.0 } else { 1000.0 }
     }
 
+    /// A word along an axis in length units; along X of a diameter half of it counts.
+    pub(super) fn along(&self, axis: usize, word: Word) -> f64 {
+        self.length_of(word) * if axis == 0 && self.modes.diameter() { 0.5 } else { 1.0 }
+    }
+
     /// A length that has no point counts increments whatever the settings are: P and Q of turning cycles.
     pub(super) fn increments_of(&self, word: Word) -> f64 {
         match word.exact {
@@ -90,16 +95,15 @@ impl Machine {
             if i == 5 && chamfer {
                 continue;
             }
-            let half = if i == 0 && self.modes.diameter() { 0.5 } else { 1.0 };
             let (word, increment) = (b.take(letter as u8), self.increment(b, i));
             if let (Some(word), Some(increment)) = (word, increment) {
                 let diag = Diag::new(Code::DuplicateWord, increment.span, format!("{letter} stands in the block too"));
                 return Err(Box::new(diag.also(word.span, "the first one stands here").help("keep one of them")));
             }
             match (word, increment) {
-                (Some(word), _) if self.modes.incremental => to[i] += self.length_of(word) * half,
-                (Some(word), _) => to[i] = self.length_of(word) * half,
-                (None, Some(word)) => to[i] += self.length_of(word) * half,
+                (Some(word), _) if self.modes.incremental => to[i] += self.along(i, word),
+                (Some(word), _) => to[i] = self.along(i, word),
+                (None, Some(word)) => to[i] += self.along(i, word),
                 (None, None) => {}
             }
         }
@@ -137,28 +141,12 @@ impl Machine {
 
     /// The motion of a block: its own code, or the one in force.
     pub(super) fn motion(&mut self, b: &Block, io: &mut Io) -> Done {
-        let takes = |m: Meaning| {
-            matches!(
-                m,
-                Meaning::Dwell
-                    | Meaning::Data
-                    | Meaning::ReferenceCheck
-                    | Meaning::Reference
-                    | Meaning::OtherReference
-                    | Meaning::FromReference
-                    | Meaning::Skip
-                    | Meaning::Coordinates
-                    | Meaning::CoordinatesReset
-                    | Meaning::Local
-                    | Meaning::Machine
-                    | Meaning::Scale(true)
-                    | Meaning::Mirror(_)
-                    | Meaning::Rotate(true)
-                    | Meaning::Cylinder
-            )
+        let takes = |c: &super::block::GCode| match c.meaning {
+            Meaning::Scale(true) | Meaning::Mirror(_) | Meaning::Rotate(true) | Meaning::Cylinder => true,
+            Meaning::ExactBlock | Meaning::Multi(_) => false,
+            _ => c.group == 0,
         };
-        let without_effect = |c: &super::block::GCode| c.group == 0 && matches!(c.meaning, Meaning::Nothing(_));
-        if b.code(takes).is_some() || b.codes.iter().any(without_effect) {
+        if b.codes.iter().any(takes) {
             return Ok(());
         }
         if let Some(code) = b.code(|m| matches!(m, Meaning::Multi(_))) {

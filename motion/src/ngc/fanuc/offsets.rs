@@ -66,9 +66,7 @@ impl Machine {
     /// An error while compensation or virtual axes are in force; a corner that waits goes out.
     pub(super) fn free(&mut self, at: Span, what: &str, io: &mut Io) -> Done {
         self.end_corner(io);
-        if io.state.modal.side.is_some() {
-            return Err(Box::new(not_now(at, format!("{what} while G41 or G42 is in force"), "write G40 first")));
-        }
+        io.run().uncompensated(at, what)?;
         if self.modes.virtual_axis.is_some() {
             let help = "end polar interpolation with G13.1, cylindrical with G7.1 C0";
             return Err(Box::new(not_now(at, format!("{what} under polar or cylindrical interpolation"), help)));
@@ -233,13 +231,12 @@ impl Machine {
     /// G52: named axes get this shift, from the work system.
     pub(super) fn local(&mut self, b: &Block, at: Span, io: &mut Io) -> Done {
         self.free(at, "another origin", io)?;
-        let (mut all, unit): ([f64; 6], f64) = (self.modes.local.into(), io.state.unit());
+        let mut all: [f64; 6] = self.modes.local.into();
         let mut named = false;
         for (i, letter) in AXES.into_iter().enumerate() {
             if let Some(word) = b.take(letter as u8) {
                 named = true;
-                let value = self.length_of(word) / if i == 0 && self.modes.diameter() { 2.0 } else { 1.0 };
-                all[i] = if i < 3 { value * unit } else { value };
+                all[i] = self.stored(i as u32, self.length_of(word), io);
             }
         }
         if !named {

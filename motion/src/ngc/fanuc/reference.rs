@@ -175,7 +175,7 @@ impl Machine {
         let mut machine: [f64; 6] = scaled(modal.machine(modal.position), 1.0 / unit).into();
         for (i, letter) in AXES.into_iter().enumerate() {
             if let Some(word) = b.take(letter as u8) {
-                machine[i] = self.length_of(word) / if i == 0 && self.modes.diameter() { 2.0 } else { 1.0 };
+                machine[i] = self.along(i, word);
             }
         }
         let end = scaled(modal.offsets.program(scaled(machine.into(), unit)), 1.0 / unit);

@@ -5,12 +5,12 @@ use super::block::Block;
 use super::calls::bad;
 use super::kernel::Io;
 use super::table::Meaning;
-use crate::canon::{Canon, Direction, ToolEntry};
+use crate::canon::{Canon, Direction};
 use crate::ngc::execute::Done;
 use crate::ngc::modal::{FeedMode, Side};
 use crate::ngc::request::{missing, not_now};
 use crate::ngc::word::{Action, Coolant, Length};
-use takt_base::{Code, Diag, Span};
+use takt_base::{Diag, Span};
 
 impl Machine {
     pub(super) fn feed_and_speed(&mut self, b: &Block, io: &mut Io) -> Done {
@@ -96,12 +96,10 @@ impl Machine {
 
     /// `T0101`: turret position and offset number.
     fn turret(&mut self, number: u32, at: Span, io: &mut Io) -> Done {
-        if io.state.modal.side.is_some() {
-            return Err(Box::new(not_now(at, "another tool while G41 or G42 is in force", "write G40 first")));
-        }
+        io.run().uncompensated(at, "another tool")?;
         let (tool, offset) = (number / 100, number % 100);
         if tool != 0 && tool != io.state.modal.tool_in_spindle {
-            let entry = self.register(tool, at, io)?;
+            let entry = io.run().tool(tool, at)?;
             io.state.tools.load(entry);
             io.state.modal.tool = tool;
             io.state.modal.tool_in_spindle = tool;
@@ -109,7 +107,7 @@ impl Machine {
             io.emit(Canon::ChangeTool(tool));
         }
         (self.modes.d, self.modes.h) = (offset, offset);
-        let (entry, wear) = (self.register(offset, at, io)?, self.modes.wear_of(offset));
+        let (entry, wear) = (io.run().tool(offset, at)?, self.modes.wear_of(offset));
         let (x, z) = (entry.offset[0] + wear.x, entry.offset[2] + wear.z);
         self.length(&[('X', x), ('Z', z)], at, io);
         Ok(())
@@ -121,15 +119,6 @@ impl Machine {
         let words: Vec<(char, f64)> = offsets.iter().map(|&(letter, mm)| (letter, mm / unit)).collect();
         io.obey(&[Action::Length(Length::Dynamic)], &words, at);
         self.sync(io);
-    }
-
-    /// The row of an offset number; 0 has no offsets.
-    pub(super) fn register(&self, number: u32, at: Span, io: &Io) -> Result<ToolEntry, Box<Diag>> {
-        io.state.tools.find(number).ok_or_else(|| {
-            let diag = Diag::new(Code::UnknownTool, at, format!("tool {number}"));
-            let diag = diag.message(format!("tool {number} is not in the tool table"));
-            Box::new(diag.help("add a row for it to the tool table, or write the number of another tool"))
-        })
     }
 
     pub(super) fn auxiliary(&mut self, b: &Block, io: &mut Io) -> Done {
@@ -189,7 +178,7 @@ impl Machine {
         if io.state.modal.side == Some(side) {
             return Ok(());
         }
-        let entry = self.register(self.modes.d, at, io)?;
+        let entry = io.run().tool(self.modes.d, at)?;
         let radius = entry.diameter / 2.0 + self.modes.wear_of(self.modes.d).radius;
         let lathe = Self::plane(io) == crate::canon::Plane::Xz;
         let tip = if lathe { f64::from(tip(entry.orientation)) } else { 0.0 };
@@ -220,7 +209,7 @@ impl Machine {
         if let Some(h) = Self::whole_word(b, b'H', "write the number of a length offset, such as H1")? {
             self.modes.h = h;
         }
-        let (entry, wear) = (self.register(self.modes.h, at, io)?, self.modes.wear_of(self.modes.h));
+        let (entry, wear) = (io.run().tool(self.modes.h, at)?, self.modes.wear_of(self.modes.h));
         self.length(&[('Z', f64::from(way) * (entry.offset[2] + wear.z))], at, io);
         Ok(())
     }

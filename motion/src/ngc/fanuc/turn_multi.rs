@@ -48,9 +48,8 @@ impl Machine {
 
     /// Finishing allowance on Z and X (as a radius), in length units.
     fn allowance(&self, b: &Block) -> Point {
-        let half = if self.modes.diameter() { 0.5 } else { 1.0 };
-        let value = |letter| b.take(letter).map_or(0.0, |w| self.length_of(w));
-        [value(b'W'), value(b'U') * half]
+        let value = |letter, axis| b.take(letter).map_or(0.0, |w| self.along(axis, w));
+        [value(b'W', 2), value(b'U', 0)]
     }
 
     fn rough(&mut self, b: &Block, facing: bool, at: Span, io: &mut Io) -> Done {

@@ -113,7 +113,7 @@ impl Machine {
         let along = lead * length / dz.abs().max(dx.abs());
         self.say_feed_mode(io);
         io.emit(Canon::StartSpeedFeedSync(along));
-        let share = if length > 0.0 { (length - rise) / length } else { 1.0 };
+        let share = (length - rise) / length;
         let bend = Position { x: from.x + dx * share, z: from.z + dz * share, ..end };
         self.in_step(bend, at, io);
         if rise > 0.0 {

@@ -42,13 +42,7 @@ impl Machine {
     /// G12.1, G13.1, G7.1 C.
     pub(super) fn virtual_axes(&mut self, b: &Block, code: &GCode, io: &mut Io) -> Done {
         self.end_corner(io);
-        if io.state.modal.side.is_some() {
-            return Err(Box::new(not_now(
-                code.span,
-                "interpolation of a rotary axis while G41 or G42 is in force",
-                "write G40 first",
-            )));
-        }
+        io.run().uncompensated(code.span, "interpolation of a rotary axis")?;
         let wanted = match code.meaning {
             Meaning::PolarPlane(on) => on.then_some(Virtual::Polar { zero: io.state.modal.position.c }),
             _ => {
@@ -204,11 +198,7 @@ impl Machine {
         if seg.shape == Shape::Rapid {
             return io.straight(real, true, seg.at);
         }
-        let here = io.state.modal.position;
-        let d = crate::ngc::modal::minus(real, here);
-        let linear = (d.x * d.x + d.y * d.y + d.z * d.z).sqrt();
-        let rotary = (d.a * d.a + d.b * d.b + d.c * d.c).sqrt();
-        let length = if linear > 0.0 { linear } else { rotary };
+        let length = crate::ngc::motion::length_of(&io.state.modal, &Canon::StraightFeed(real));
         let feed = io.state.modal.feed.unwrap_or(0.0);
         let mut run = io.run();
         crate::ngc::motion::check_feed(&mut run, crate::ngc::modal::Motion::Linear)?;
@@ -233,7 +223,7 @@ impl Machine {
         let mut shares = Vec::new();
         halve(p, q, [0.0, 1.0], tolerance, DEPTH_MAX, &mut shares);
         let mix = |a: f64, b: f64, t: f64| a + (b - a) * t;
-        let mut before = (0.0, from);
+        let mut before = from;
         for t in shares {
             let here = [mix(p[0], q[0], t), mix(p[1], q[1], t)];
             let last = io.state.modal.position.c;
@@ -241,10 +231,10 @@ impl Machine {
             let c = last + (angle - last) - 360.0 * ((angle - last) / 360.0).round();
             let flat = Position { x: here[0], c: here[1], y: mix(from.y, to.y, t), z: mix(from.z, to.z, t), ..to };
             let real = Position { x: libm::hypot(here[0], here[1]), c, ..flat };
-            let d = crate::ngc::modal::minus(flat, before.1);
+            let d = crate::ngc::modal::minus(flat, before);
             let surface = (d.x * d.x + d.y * d.y + d.z * d.z + d.c * d.c).sqrt();
             self.chord(real, surface, seg, io)?;
-            before = (t, flat);
+            before = flat;
         }
         Ok(())
     }

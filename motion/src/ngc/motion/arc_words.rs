@@ -29,10 +29,8 @@ impl ArcWords<'_> {
             Some(_) => self.centre_by_radius(warnings)?,
             None => self.centre()?,
         };
-        let [first_end, second_end, axis_end_point] = in_plane(self.end, self.modal.plane);
-        let Position { a, b, c, .. } = self.end;
         let rotation = if self.counterclockwise { turns } else { -turns };
-        Ok(Arc { first_end, second_end, first_axis: centre[0], second_axis: centre[1], rotation, axis_end_point, a, b, c })
+        Ok(super::arc_in_plane(centre, rotation, self.end, self.modal.plane))
     }
 
     fn ends(&self) -> (Point, Point) {

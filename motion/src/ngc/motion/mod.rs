@@ -137,7 +137,7 @@ pub fn inverse_time(run: &mut Run, command: &Canon) -> Done {
 }
 
 /// Length of a move in length units, or in degrees if only rotary axes move.
-fn length_of(modal: &super::modal::Modal, command: &Canon) -> f64 {
+pub fn length_of(modal: &super::modal::Modal, command: &Canon) -> f64 {
     match command {
         Canon::StraightFeed(end) => {
             let d = minus(*end, modal.position);
@@ -206,9 +206,7 @@ fn in_machine(run: &mut Run, motion: Motion) -> Done {
     if run.state.modal.distance == Distance::Incremental {
         return Err(Box::new(not_now(at, "G53 in incremental mode", "write G90 before it")));
     }
-    if run.state.modal.side.is_some() {
-        return Err(Box::new(not_now(at, "G53 while G41 or G42 is in force", "write G40 first")));
-    }
+    run.uncompensated(at, "G53")?;
     if motion == Motion::Linear {
         check_feed(run, motion)?;
     }

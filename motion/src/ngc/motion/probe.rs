@@ -23,9 +23,7 @@ pub fn run(run: &mut Run, code: u8) -> Done {
     if !run.request.any("XYZABCUVW@^") {
         need(run.request, 'X', "write where the probe goes, such as G38.2 Z-10")?;
     }
-    if run.state.modal.side.is_some() {
-        return Err(Box::new(not_now(at, "probing while G41 or G42 is in force", "write G40 first")));
-    }
+    run.uncompensated(at, "probing")?;
     if run.state.modal.feed_mode == FeedMode::InverseTime {
         return Err(Box::new(not_now(at, "probing with G93", "write G94 and F before it")));
     }

@@ -19,9 +19,7 @@ pub fn run(run: &mut Run, motion: Motion) -> Done {
     if run.state.modal.plane != Plane::Xy {
         return Err(Box::new(not_now(at, format!("{} outside of the plane XY", motion.text()), "write G17 before it")));
     }
-    if run.state.modal.side.is_some() {
-        return Err(Box::new(not_now(at, format!("{} while G41 or G42 is in force", motion.text()), "write G40 first")));
-    }
+    run.uncompensated(at, motion.text())?;
     if motion != Motion::NurbsEnd {
         if run.state.modal.feed_mode == FeedMode::InverseTime {
             return Err(Box::new(not_now(at, format!("{} with G93", motion.text()), "write G94 and F before it")));
