@@ -256,7 +256,7 @@ fn attachments(project: &Project) -> Vec<(String, Vec<u8>)> {
     let mut files = vec![(TOML.to_owned(), project.toml.clone().into_bytes())];
     files.extend(surroundings::of_channels(&project.root, &project.keys));
     if !project.toml.is_empty() {
-        files.extend(surroundings::of_folder(&project.root, &ATTACHED));
+        files.extend(surroundings::of_folder(&project.root, ATTACHED));
     }
     files
 }

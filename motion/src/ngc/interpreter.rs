@@ -19,10 +19,9 @@ use super::fault::Fault;
 use super::flow::files::Files;
 use super::flow::owords::After;
 use super::flow::{Flow, Next};
-use super::lines::trimmed;
+use super::lines::{Style, trimmed};
 use super::modal::Modal;
 use super::options::Options;
-use super::outside;
 use super::request::Request;
 use super::state::{SavedModes, State};
 use super::text::Text;
@@ -70,7 +69,9 @@ impl Interpreter {
             fanuc::prepare(&mut state, dialect);
             Box::new(fanuc::Machine::new(source, text.clone(), &options, &state))
         });
-        let mut flow = Flow::new(Files::new(source, text, options.style));
+        // A Fanuc-style program is read by its own flow.
+        let style = if fanuc.is_some() { Style::Ngc } else { options.style };
+        let mut flow = Flow::new(Files::new(source, text, style));
         flow.lenient = options.language.lenient;
         let queue = prologue(&state, &options).into_iter().map(|command| Step { block: 0, line: 0, n: None, command }).collect();
         Interpreter {
@@ -188,7 +189,7 @@ impl Interpreter {
         let went = machine.advance(&mut io);
         self.block = io.out.block;
         let line = io.out.line;
-        if self.diags.len() > before && self.failed_now(before) {
+        if self.failed_now(before) {
             self.queue.truncate(mark);
             self.state.comp.reset();
         }
@@ -271,15 +272,15 @@ impl Interpreter {
         let (source, mark) = (self.flow.files.source(), self.queue.len());
         let diags_before = self.diags.len();
         self.request.fill(row, source, &self.flow.code, &mut self.state, &mut self.stack, &mut self.diags);
-        if self.state.options.drop_in && self.diags.len() > diags_before && self.failed_now(diags_before) {
+        if self.state.options.drop_in && self.failed_now(diags_before) {
             return;
         }
-        let mut out = Out { queue: &mut self.queue, diags: &mut self.diags, block: self.block, line: row.line, n: row.n };
-        if !self.state.outside.sets.is_empty() {
-            outside::give_out(&mut self.state, &mut out, diags_before);
+        if self.failed_now(diags_before) {
+            self.state.outside.sets.clear();
         }
+        let mut out = Out { queue: &mut self.queue, diags: &mut self.diags, block: self.block, line: row.line, n: row.n };
         let then = execute::execute(&self.request, row, &self.flow.code, &mut self.state, &mut out);
-        if self.diags.len() > diags_before && self.failed_now(diags_before) {
+        if self.failed_now(diags_before) {
             if !self.state.options.drop_in {
                 self.queue.truncate(mark);
             }
@@ -288,7 +289,7 @@ impl Interpreter {
             return;
         }
         self.then(then, row);
-        if self.diags.len() > diags_before && self.failed_now(diags_before) && !self.state.options.drop_in {
+        if self.failed_now(diags_before) && !self.state.options.drop_in {
             self.queue.truncate(mark);
         }
     }

@@ -4,7 +4,6 @@
 //! are 0, inputs 0, and a probe trips at the end of its move.
 
 use super::code::{Code as Arena, CommentKind, Row, Target};
-use super::execute::Out;
 use super::expr::{Op, Slice, Value};
 use super::fault::Fault;
 use super::flow::files::Spot;
@@ -20,7 +19,7 @@ use crate::feeder::tables::Kept;
 use crate::plc::{PlcError, READS};
 use crate::sync::Answer;
 use std::cell::RefCell;
-use takt_base::{Code, Severity};
+use takt_base::Code;
 
 /// Start of the names of PLC variables.
 pub const PREFIX: &str = "_plc_";
@@ -239,17 +238,6 @@ impl Commands for Interpreter {
     }
     fn in_main(&self) -> bool {
         self.flow.files.at == 0
-    }
-}
-
-/// Gives out the settings of PLC variables that a row has made, unless something is wrong with it.
-pub fn give_out(state: &mut State, out: &mut Out, diags_before: usize) {
-    if out.diags[diags_before..].iter().any(|d| d.severity == Severity::Error) {
-        return state.outside.sets.clear();
-    }
-    for (name, value) in std::mem::take(&mut state.outside.sets) {
-        let step = Step { block: out.block, line: out.line, n: out.n, command: Canon::SetPlc(name, value) };
-        if state.comp.waits() { state.comp.hold(step) } else { out.queue.push_back(step) }
     }
 }
 

@@ -2,7 +2,6 @@
 //! Names and arguments are those of that program where they differ from the report's. Runs: background.
 
 use super::back::{Back, Count};
-use super::names::{plane_name, reference_name, units_name};
 use crate::canon::{Arc, Canon, Direction, MotionMode, Position, ProgramEnd, Step, ToolEntry};
 
 /// Writes rows and counts them.
@@ -120,9 +119,6 @@ impl Listing {
 /// The call of a command; empty for what that program does not list.
 fn call(command: &Canon, table_unit: f64) -> String {
     match command {
-        Canon::SelectPlane(p) => format!("SELECT_PLANE({})", plane_name(*p)),
-        Canon::UseLengthUnits(u) => format!("USE_LENGTH_UNITS({})", units_name(*u)),
-        Canon::SetFeedReference(r) => format!("SET_FEED_REFERENCE({})", reference_name(*r)),
         Canon::SetG5xOffset(i, p) => format!("SET_G5X_OFFSET({i}, {})", six(p)),
         Canon::SetG92Offset(p) => format!("SET_G92_OFFSET({})", six(p)),
         Canon::SetXyRotation(r) => format!("SET_XY_ROTATION({r:.4})"),
@@ -130,10 +126,9 @@ fn call(command: &Canon, table_unit: f64) -> String {
         Canon::RigidTap(p) => format!("RIGID_TAP({:.4}, {:.4}, {:.4})", p.x, p.y, p.z),
         Canon::NurbsFeed(n) => format!("NURBS_FEED({}, ...)", n.points.len()),
         Canon::SetFeedMode(per_rev) => format!("SET_FEED_MODE(0, {})", u8::from(*per_rev)),
-        Canon::SetMotionControlMode(mode) => mode_call(*mode),
+        Canon::SetMotionControlMode(MotionMode::Continuous(t)) => format!("SET_MOTION_CONTROL_MODE(CANON_CONTINUOUS, {t:.6})"),
         Canon::SetNaivecamTolerance(t) => format!("SET_NAIVECAM_TOLERANCE({t:.4})"),
         Canon::StartSpeedFeedSync(k) => format!("START_SPEED_FEED_SYNC({k:.6},0)"),
-        Canon::StopSpeedFeedSynch => "STOP_SPEED_FEED_SYNCH()".into(),
         Canon::SetOriginOffsets(_) | Canon::WaitInput(_) | Canon::Print(_) | Canon::ReadPlc(_) | Canon::SetPlc(..) => {
             String::new()
         }
@@ -173,14 +168,6 @@ fn six(p: &Position) -> String {
     let mut back = Back::default();
     back.numbers(&<[f64; 6]>::from(*p));
     String::from_utf8_lossy(back.bytes()).into_owned()
-}
-
-fn mode_call(mode: MotionMode) -> String {
-    match mode {
-        MotionMode::ExactStop => "SET_MOTION_CONTROL_MODE(CANON_EXACT_STOP)".into(),
-        MotionMode::ExactPath => "SET_MOTION_CONTROL_MODE(CANON_EXACT_PATH)".into(),
-        MotionMode::Continuous(t) => format!("SET_MOTION_CONTROL_MODE(CANON_CONTINUOUS, {t:.6})"),
-    }
 }
 
 fn tool_offset(p: &Position) -> String {

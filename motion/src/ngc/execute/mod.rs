@@ -71,6 +71,10 @@ pub enum Then {
 /// next block can be checked.
 pub fn execute(request: &Request, row: &Row, arena: &Arena, state: &mut State, out: &mut Out) -> Then {
     let mut run = Run { request, state, out, then: Then::Next };
+    // Settings of PLC variables that the row has made.
+    for (name, value) in std::mem::take(&mut run.state.outside.sets) {
+        run.emit(Canon::SetPlc(name, value));
+    }
     if !row.comments.is_empty() {
         run.comments(row, arena);
     }

@@ -54,12 +54,10 @@ impl Iterator for Interpreter {
     /// The next command, or the error of the next block: then nothing of that block has been given out (in the drop-in form: what stands
     /// before the error), and nothing follows. Warnings are left to [`check`].
     fn next(&mut self) -> Option<Self::Item> {
-        self.go_past_seen();
-        if self.queue.is_empty()
-            && let Some(diag) = self.fill_queue()
-        {
+        if let Err(diag) = self.next_ref()? {
             return Some(Err(diag));
         }
+        self.seen = false;
         self.queue.pop_front().map(Ok)
     }
 }
