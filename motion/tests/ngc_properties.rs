@@ -165,8 +165,10 @@ fn wild_programs_end_with_a_message() {
 #[test]
 fn repeated_calls_leave_saved_modes_alone() {
     let text = "o100 sub\nG0 Y1\no100 endsub\nG90 M70\nM98 P100 L2\nG91\nM72\nG0 X1\nX1\nM2";
-    let last =
-        steps(text).into_iter().filter_map(|s| if let Canon::StraightTraverse(p) = s.command { Some(p) } else { None }).last();
+    let last = steps(text)
+        .into_iter()
+        .filter_map(|s| if let Canon::StraightTraverse(p) = s.command { Some(p) } else { None })
+        .next_back();
     assert_eq!(last.map(|p| (p.x, p.y)), Some((1.0, 1.0)));
 }
 
