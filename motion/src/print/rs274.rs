@@ -126,7 +126,7 @@ fn call(command: &Canon, table_unit: f64) -> String {
         Canon::RigidTap(p) => format!("RIGID_TAP({:.4}, {:.4}, {:.4})", p.x, p.y, p.z),
         Canon::NurbsFeed(n) => format!("NURBS_FEED({}, ...)", n.points.len()),
         Canon::SetFeedMode(per_rev) => format!("SET_FEED_MODE(0, {})", u8::from(*per_rev)),
-        Canon::SetMotionControlMode(MotionMode::Continuous(t)) => format!("SET_MOTION_CONTROL_MODE(CANON_CONTINUOUS, {t:.6})"),
+        Canon::SetMotionControlMode(mode) => mode_call(*mode),
         Canon::SetNaivecamTolerance(t) => format!("SET_NAIVECAM_TOLERANCE({t:.4})"),
         Canon::StartSpeedFeedSync(k) => format!("START_SPEED_FEED_SYNC({k:.6},0)"),
         Canon::SetOriginOffsets(_) | Canon::WaitInput(_) | Canon::Print(_) | Canon::ReadPlc(_) | Canon::SetPlc(..) => {
@@ -168,6 +168,15 @@ fn six(p: &Position) -> String {
     let mut back = Back::default();
     back.numbers(&<[f64; 6]>::from(*p));
     String::from_utf8_lossy(back.bytes()).into_owned()
+}
+
+/// Twice a row of a drilling cycle: without a text between.
+fn mode_call(mode: MotionMode) -> String {
+    match mode {
+        MotionMode::ExactStop => "SET_MOTION_CONTROL_MODE(CANON_EXACT_STOP)".into(),
+        MotionMode::ExactPath => "SET_MOTION_CONTROL_MODE(CANON_EXACT_PATH)".into(),
+        MotionMode::Continuous(t) => format!("SET_MOTION_CONTROL_MODE(CANON_CONTINUOUS, {t:.6})"),
+    }
 }
 
 fn tool_offset(p: &Position) -> String {
